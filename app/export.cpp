@@ -30,6 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostSamples = 100'000;
+/// The matrices of a step take 0.1 GB each then, and their exponential minutes.
+constexpr int kMostModes = 2000;
 
 struct ExportArguments {
   std::string file;
@@ -74,7 +76,9 @@ void prepare(const ExportArguments& arguments) {
   if (arguments.period_s) {
     arm::require_in_range("--period", *arguments.period_s, "s", arm::kPositive);
   }
-  if (arguments.modes < 1) throw arm::out_of_range("--modes", arguments.modes, "", "1 or more");
+  if (arguments.modes < 1 || arguments.modes > kMostModes) {
+    throw arm::out_of_range("--modes", arguments.modes, "", fmt::format("1 to {}", kMostModes));
+  }
   if (const int samples = arguments.samples.value_or(0); samples < 0 || samples > kMostSamples) {
     throw arm::out_of_range("--samples", samples, "", fmt::format("0 to {}", kMostSamples));
   }

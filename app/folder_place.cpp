@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <system_error>
 #include <unistd.h>
 
@@ -18,6 +19,12 @@ namespace flexarm::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What stood in the place of a command's folder when it began, by the folder's name.
+std::map<std::string, measured::FolderSeen>& places_seen() {
+  static std::map<std::string, measured::FolderSeen> seen;
+  return seen;
+}
 
 bool has_entries(const fs::path& folder) {
   std::error_code error;
@@ -81,6 +88,7 @@ FolderKind measurement_folder_kind() {
 }
 
 void require_place(const std::string& folder, bool force, const FolderKind& kind) {
+  places_seen()[folder] = measured::folder_seen(folder);
   require_makeable(folder);
   if (force) {
     require_replaceable(folder, kind);
@@ -93,17 +101,20 @@ void require_place(const std::string& folder, bool force, const FolderKind& kind
   }
 }
 
-bool has_only(const std::string& folder, const std::string& file) {
+bool is_begun(const std::string& folder, const std::string& file) {
   if (!has_entries(folder)) return false;
+  const auto seen = measured::folder_seen(folder);
   const auto entries = fs::directory_iterator(folder);
-  return std::ranges::all_of(
+  const bool begun = std::ranges::all_of(
       entries, [&](const auto& entry) { return entry.path().filename() == fs::path(file); });
+  if (begun) places_seen()[folder] = seen;
+  return begun;
 }
 
 void write_folder(const std::string& folder, bool force,
                   std::span<const measured::NamedContent> files) {
-  measured::write_folder_atomically(
-      folder, files, force ? measured::IfExists::replace : measured::IfExists::refuse);
+  const auto if_exists = force ? measured::IfExists::replace : measured::IfExists::refuse;
+  measured::write_folder_atomically(folder, files, if_exists, places_seen()[folder]);
 }
 
 void require_json_place(const std::string& json_file, const std::string& folder) {

@@ -28,10 +28,13 @@ FolderKind measurement_folder_kind();
 /// work, not after it.
 void require_place(const std::string& folder, bool force, const FolderKind& kind);
 
-/// Whether the folder has the file, and nothing else.
-bool has_only(const std::string& folder, const std::string& file);
+/// Whether the folder has the file, and nothing else: what the command itself has begun there,
+/// which `write_folder` may replace.
+bool is_begun(const std::string& folder, const std::string& file);
 
-/// Writes the files into the folder by the rule, once `require_place` has been asked.
+/// Writes the files into the folder by the rule, once `require_place` has been asked. Throws
+/// arm::InputError where another process has written files there since: of two commands one writes
+/// its folder whole, and the other says so.
 void write_folder(const std::string& folder, bool force,
                   std::span<const measured::NamedContent> files);
 

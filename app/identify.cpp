@@ -42,14 +42,19 @@ struct IdentifyArguments {
   ReportChoice report;
 };
 
-measured::Identification identify_with_progress(std::vector<measured::MeasuredRun> runs,
+measured::Identification identify_with_progress(const std::string& file,
+                                                std::vector<measured::MeasuredRun> runs,
                                                 measured::IdentificationOptions options) {
   report::Progress progress("identifying");
   options.progress = [&](std::string_view, double fraction) {
     progress.reach(fraction);
     return true;
   };
-  return measured::identify(std::move(runs), options);
+  try {
+    return measured::identify(std::move(runs), options);
+  } catch (const arm::InputError& error) {
+    throw arm::located(error, file, 0);
+  }
 }
 
 std::string fit_text(const measured::RunsFit& fit, const measured::Identification& identification,
@@ -168,7 +173,8 @@ int run_identify(const IdentifyArguments& arguments) {
   std::vector<measured::MeasuredRun> recorded;  // the report shows them
   if (arguments.report.is_given()) recorded = task.runs;
 
-  const auto identification = identify_with_progress(std::move(task.runs), task.options);
+  const auto identification =
+      identify_with_progress(arguments.file, std::move(task.runs), task.options);
   const auto conditions = compare::conditions_of(identification, task.arm);
   std::string text = results_text(identification, conditions);
   text += describe(task.arm) + left_out_of_roots(task.arm) + "\n";

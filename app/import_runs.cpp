@@ -49,6 +49,14 @@ RecordRange read_range(const std::string& option, std::string_view text, bool by
   }
 }
 
+std::string read_id(const std::string& option, const std::string& text) {
+  try {
+    return require_id(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+}
+
 Part read_part(const std::string& text) {
   const std::string option = fmt::format("--run {}", arm::shown(text));
   const auto equals = text.find('=');
@@ -58,7 +66,7 @@ Part read_part(const std::string& text) {
   std::string_view range = std::string_view(text).substr(equals + 1);
   const bool by_rows = range.starts_with(kRows);
   if (by_rows) range.remove_prefix(kRows.size());
-  return {require_id(text.substr(0, equals)), read_range(option, range, by_rows), option};
+  return {read_id(option, text.substr(0, equals)), read_range(option, range, by_rows), option};
 }
 
 std::vector<Part> parts_of(const RunsChoice& choice, const std::string& file_id) {

@@ -1,4 +1,5 @@
 #include "app/command.hpp"
+#include "app/error_place.hpp"
 #include "app/help_text.hpp"
 #include "app/interruption.hpp"
 #include "app/json_file.hpp"
@@ -48,6 +49,13 @@ void complain(std::string_view line) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+/// The parser takes an empty value, that of a shell variable without one, for 0 or for the default.
+void refuse_empty_values(CLI::App& parser) {
+  for (CLI::Option* option : parser.get_options([](CLI::Option*) { return true; })) {
+    if (option->get_items_expected_max() > 0) option->check(not_empty());
+  }
+}
+
 /// Puts the commands under a heading of the help.
 std::vector<Command> in_group(const char* heading, std::vector<Command> commands) {
   for (const auto& command : commands) command.parser->group(heading);
@@ -83,6 +91,9 @@ int run(int argc, const char* const* argv) {
       in_group("Reference", {add_effects(program), add_paper(program), add_completion(program)}),
       std::vector{add_manual_pages(program)}};
 
+  for (const auto& group : commands) {
+    for (const auto& command : group) refuse_empty_values(*command.parser);
+  }
   try {
     program.parse(argc, argv);
     for (const auto& group : commands) {
@@ -93,7 +104,11 @@ int run(int argc, const char* const* argv) {
             json != nullptr && json->count() > 0 && is_standard_output(json->as<std::string>())) {
           reserve_standard_output();
         }
-        return command.run();
+        try {
+          return command.run();
+        } catch (const arm::InputError& error) {
+          throw placed(error, *command.parser);
+        }
       }
     }
     print(program.help());

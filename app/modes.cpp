@@ -3,6 +3,7 @@
 #include "app/formulation_choice.hpp"
 #include "app/json_file.hpp"
 #include "app/list_option.hpp"
+#include "app/memory_need.hpp"
 #include "app/output_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
@@ -145,12 +146,24 @@ void add_files(const fs::path& folder, const arm::Arm& arm, const std::string& f
 }
 
 /// Shapes are computed where they are written: of many modes they take most of the time.
+bool has_shapes(const ModesArguments& arguments) {
+  return !arguments.output.folder.empty() || !arguments.output.json_file.empty();
+}
+
+/// Of a million modes, measured: 5.9 kB a mode, and 25 to 29 kB with what is written.
+void require_memory_for_modes(const ModesArguments& arguments) {
+  constexpr double kModeBytes = 5e3;
+  constexpr double kWrittenModeBytes = 2.5e4;
+  require_memory("--modes", arguments.count,
+                 arguments.count * (has_shapes(arguments) ? kWrittenModeBytes : kModeBytes));
+}
+
 response::ModalSummary summarise_with_progress(const ModesArguments& arguments, const arm::Arm& arm,
                                                const response::AnyFormulation& formulation,
                                                const std::vector<arm::Sensor>& sensors) {
-  const bool has_shapes = !arguments.output.folder.empty() || !arguments.output.json_file.empty();
-  const auto stations_m =
-      has_shapes ? compare::shape_stations_m(arm::linear_arm(arm).length_m) : std::vector<double>{};
+  const auto stations_m = has_shapes(arguments)
+                              ? compare::shape_stations_m(arm::linear_arm(arm).length_m)
+                              : std::vector<double>{};
   report::Progress progress("computing modes");
   return response::summarise(formulation, arguments.count, sensors, stations_m,
                              [&progress](std::string_view, double fraction) {
@@ -161,6 +174,7 @@ response::ModalSummary summarise_with_progress(const ModesArguments& arguments, 
 
 int run_modes(const ModesArguments& arguments) {
   if (arguments.count < 1) throw arm::out_of_range("--modes", arguments.count, "", "1 or more");
+  require_memory_for_modes(arguments);
   std::vector<arm::Sensor> sensors;
   for (const auto& name : arguments.sensors) sensors.push_back(arm::parse_sensor(name));
 
@@ -177,6 +191,7 @@ int run_modes(const ModesArguments& arguments) {
   for (const auto& arm : arms) {
     const auto chosen = arguments.formulation.make(arm, arguments.count);
     const auto summary = summarise_with_progress(arguments, arm, chosen.formulation, sensors);
+    const report::Progress forming("forming tables");
     const auto shown = [&arguments](const report::Table& table) {
       return screen_rows(table, arguments.verbose ? kAllRows : kModesRows,
                          "--verbose, --out or --json");
@@ -209,9 +224,14 @@ int run_modes(const ModesArguments& arguments) {
                 arguments.output.figures, files);
     }
   }
-  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
-  write_json(arguments.output.json_file,
-             report::json_document("flexarm.modes/1", {{"arms", documents}}));
+  {
+    const report::Progress writing("writing files");
+    if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+    if (!arguments.output.json_file.empty()) {
+      write_json(arguments.output.json_file,
+                 report::json_document("flexarm.modes/1", {{"arms", documents}}));
+    }
+  }
   if (!arguments.output.folder.empty()) text += fmt::format("wrote {}\n", arguments.output.folder);
   text += fmt::format("next: compare the three formulations with  flexarm compare{}\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file);

@@ -6,6 +6,7 @@
 #include "arm/input_error.hpp"
 #include "compare/paper/paper_topics.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "measured/files/text_file.hpp"
 #include "report/json/paper_json.hpp"
 #include "report/tables/csv.hpp"
 #include "report/tables/paper_markdown.hpp"
@@ -14,9 +15,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
@@ -43,9 +43,8 @@ std::vector<measured::NamedContent> files_of(const compare::paper::Findings& fin
 }
 
 void update_document(const std::string& path, const compare::paper::Findings& findings) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw arm::InputError(fmt::format("{}: cannot be read", path));
-  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t kLargest_bytes = std::size_t{1} << 24U;
+  const std::string document = measured::read_text_file(path, kLargest_bytes);
   try {
     measured::write_atomically(path, report::updated_paper_document(document, findings));
   } catch (const arm::InputError& error) {

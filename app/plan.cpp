@@ -23,6 +23,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -97,6 +98,13 @@ std::string text_of_plan(const diagnose::Plan& plan, bool verbose) {
              report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
 }
 
+/// Whether two effects can be told apart or not at all: of one effect there is nothing to draw.
+bool has_pairs(const diagnose::Plan& plan) {
+  return std::ranges::any_of(plan.separations, [](const auto& row) {
+    return std::ranges::any_of(row, [](const auto& pair) { return pair.has_value(); });
+  });
+}
+
 void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
   const std::string better = diagnose::format_measurement_plan(plan.better);
   const std::string json = report::plan_document(plan);
@@ -107,7 +115,10 @@ void write_plan(const PlanArguments& arguments, const diagnose::Plan& plan) {
         {"leads.csv", report::to_csv(report::lead_table(plan))},
         {kBetterPlan, better},
         {kPlanJson, json}};
-    arguments.output.figures.add_to(files, "", {{"separations", report::separation_figure(plan)}});
+    if (has_pairs(plan)) {
+      arguments.output.figures.add_to(files, "",
+                                      {{"separations", report::separation_figure(plan)}});
+    }
     write_folder(arguments.output.folder, arguments.output.force, files);
   }
   if (!arguments.better_file.empty()) measured::write_atomically(arguments.better_file, better);

@@ -95,8 +95,12 @@ ChosenFormulation make_formulation(const ResponseArguments& arguments, const arm
   const bool discrete = arguments.formulation.name != "exact_tf";
   if (discrete && roots > response::kMostRoots && options.modes < response::kMostRoots) {
     throw arm::InputError(fmt::format(
-        "about {} roots lie below the highest frequency: at most {} for {}; exact_tf has no limit",
-        roots, response::kMostRoots, arguments.formulation.name));
+        "{}: about {} roots lie below the highest frequency; {} has at most {}, exact_tf has no "
+        "limit",
+        !options.frequency_Hz.empty() ? "--frequencies"
+        : options.to_Hz               ? "--to-Hz"
+                                      : "--modes",
+        roots, arguments.formulation.name, response::kMostRoots));
   }
   return arguments.formulation.make(arm, roots);
 }
@@ -221,6 +225,7 @@ int run_response(const ResponseArguments& arguments) {
   for (const auto& arm : arms) {
     const auto chosen = make_formulation(arguments, arm, options);
     const auto study = study_with_progress(arm, chosen.formulation, options);
+    const report::Progress forming("forming tables");
     text += describe(arm);
     text += fmt::format("by {}\n\n", response::formulation_label(chosen.name, chosen.settings));
     text += study_text(study, options, arguments.verbose);
@@ -238,10 +243,15 @@ int run_response(const ResponseArguments& arguments) {
       }
     }
   }
-  if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
-  if (with_state_space) write_state_space(*with_state_space, arguments.state_space_file);
-  write_json(arguments.output.json_file,
-             report::json_document("flexarm.response/1", {{"arms", documents}}));
+  {
+    const report::Progress writing("writing files");
+    if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
+    if (with_state_space) write_state_space(*with_state_space, arguments.state_space_file);
+    if (!arguments.output.json_file.empty()) {
+      write_json(arguments.output.json_file,
+                 report::json_document("flexarm.response/1", {{"arms", documents}}));
+    }
+  }
   text += next_step(arguments);
   print(text);
   return kSuccess;

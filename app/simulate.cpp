@@ -3,6 +3,7 @@
 #include "app/folder_place.hpp"
 #include "app/formulation_choice.hpp"
 #include "app/json_file.hpp"
+#include "app/memory_need.hpp"
 #include "app/output_choice.hpp"
 #include "app/run_choice.hpp"
 #include "app/screen.hpp"
@@ -224,6 +225,35 @@ void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
   print("\n");
 }
 
+/// Lower estimates: of what a million samples take (700 MB, measured), and of the matrices of a
+/// step.
+void require_memory_for(const experiment::ExperimentOptions& options,
+                        const std::vector<PlannedRun>& plan) {
+  constexpr double kSampleBytes = 400.0;
+  constexpr double kMatrices = 3.0;
+  double samples = 0.0;
+  for (const auto& run : plan) samples += static_cast<double>(run.time_s.size());
+  require_memory("samples of all runs", samples, kSampleBytes * samples);
+  const double states = 2.0 * options.modes;
+  require_memory("--modes", options.modes, kMatrices * sizeof(double) * states * states);
+}
+
+/// `written` is what the folder says of the arm.
+void write_files(const SimulateArguments& arguments, const arm::Arm& arm, const arm::Arm& written,
+                 const std::vector<PlannedRun>& plan,
+                 const experiment::SimulatedExperiment& experiment) {
+  const report::Progress writing("writing files");
+  if (!arguments.output.folder.empty()) {
+    const std::string name = arguments.name.empty() ? report::simulated_name(arm) : arguments.name;
+    write_folder(arguments.output.folder, arguments.output.force,
+                 report::measurement_folder(name, written, plan, experiment, arguments.options.hold,
+                                            arguments.output.figures.options()));
+  }
+  if (arguments.output.json_file.empty()) return;
+  write_json(arguments.output.json_file,
+             report::simulation_document(arm, experiment, arguments.options));
+}
+
 int run_simulate(SimulateArguments arguments) {
   auto& options = arguments.options;
   options.hold = read_hold(arguments.hold);
@@ -234,17 +264,12 @@ int run_simulate(SimulateArguments arguments) {
   const auto sensors = arguments.sensors.sensors(arm);
   const auto plan = arguments.runs.runs(arm, arguments.arm.payload_masses_kg);
   experiment::require_valid(options, plan, sensors, arm::on_command_line);
+  require_memory_for(options, plan);
   prepare(arguments);
 
   const auto experiment = simulate_with_progress(arm, plan, sensors, options);
   // Files first: a reader of standard output that goes away costs none of them.
-  if (!arguments.output.folder.empty()) {
-    const std::string name = arguments.name.empty() ? report::simulated_name(arm) : arguments.name;
-    write_folder(arguments.output.folder, arguments.output.force,
-                 report::measurement_folder(name, written, plan, experiment, options.hold,
-                                            arguments.output.figures.options()));
-  }
-  write_json(arguments.output.json_file, report::simulation_document(arm, experiment, options));
+  write_files(arguments, arm, written, plan, experiment);
   print_model(arguments, arm, experiment);
   print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
   if (arguments.output.folder.empty()) {

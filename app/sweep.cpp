@@ -169,7 +169,7 @@ fs::path checkpoint_of(const OutputChoice& output) {
 /// The folder of an interrupted sweep is continued with --resume, or begun anew with --force.
 void prepare(const OutputChoice& output, bool resume) {
   OutputChoice chosen = output;
-  const bool is_interrupted = !output.folder.empty() && has_only(output.folder, kCheckpoint);
+  const bool is_interrupted = !output.folder.empty() && is_begun(output.folder, kCheckpoint);
   if (is_interrupted && !resume && !output.force) {
     throw arm::InputError(
         fmt::format("{}: has the checkpoint of an interrupted sweep; --resume continues it, "
@@ -299,8 +299,8 @@ int run_sweep(const SweepArguments& arguments) {
     interruption.end_program();
   }
   if (const auto& folder = arguments.output.folder; !folder.empty()) {
-    const bool is_begun = has_only(folder, kCheckpoint);
-    write_folder(folder, arguments.output.force || is_begun,
+    const bool begun = is_begun(folder, kCheckpoint);
+    write_folder(folder, arguments.output.force || begun,
                  figure ? paper_files(arguments, *figure, result) : sweep_files(arguments, result));
   }
   write_json(arguments.output.json_file, report::sweep_json(result));

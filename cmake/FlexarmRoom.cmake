@@ -36,8 +36,7 @@ endfunction()
 #   One GoogleTest program; every TEST in it is a test of ctest. SHARDS is for a program of so many
 #   short TESTs that starting it for each takes longer than they do: NAME.shard_1 to NAME.shard_n
 #   are then its tests of ctest, and the output of one that fails names the TEST. COMPUTES is for
-#   sources that compute with Eigen: of templates that a library instantiates as well the linker
-#   takes the program's, and those must be optimised too.
+#   sources that themselves compute for long, with Eigen or regular expressions.
 function(flexarm_test name)
   cmake_parse_arguments(CHECK "COMPUTES" "SHARDS" "SOURCES;USES;LIBRARIES" ${ARGN})
   add_executable(${name} ${CHECK_SOURCES})

@@ -31,26 +31,40 @@ constexpr std::int64_t kStepsPerCent = kFractionSteps / 100;
 }  // namespace
 
 Progress::Progress(std::string label, std::int64_t total, const ProgressOptions& options)
-    : label_(std::move(label)),
-      total_(total),
-      in_per_cent_(false),
-      options_(options),
-      on_terminal_(::isatty(options.descriptor) == 1),
-      begun_(std::chrono::steady_clock::now()),
-      next_(begun_ + options.quiet_for),
-      time_left_(options.time_left) {}
+    : Progress(std::move(label), total, false, options) {}
 
 Progress::Progress(std::string label, const ProgressOptions& options)
+    : Progress(std::move(label), kFractionSteps, true, options) {}
+
+Progress::Progress(std::string label, std::int64_t total, bool in_per_cent,
+                   const ProgressOptions& options)
     : label_(std::move(label)),
-      total_(kFractionSteps),
-      in_per_cent_(true),
+      total_(total),
+      in_per_cent_(in_per_cent),
       options_(options),
       on_terminal_(::isatty(options.descriptor) == 1),
       begun_(std::chrono::steady_clock::now()),
       next_(begun_ + options.quiet_for),
-      time_left_(options.time_left) {}
+      time_left_(options.time_left) {
+  if (!on_terminal_) return;
+  ticker_ = std::thread([this] {
+    std::unique_lock lock(drawing_);
+    while (!end_.wait_for(lock, options_.tick, [this] { return over_; })) {
+      const auto now = std::chrono::steady_clock::now();
+      if (now >= next_) draw_line(now);
+    }
+  });
+}
 
 Progress::~Progress() {
+  if (ticker_.joinable()) {
+    {
+      const std::scoped_lock lock(drawing_);
+      over_ = true;
+    }
+    end_.notify_one();
+    ticker_.join();
+  }
   if (drawn_) write_all(options_.descriptor, kWipeLine);
 }
 
@@ -73,15 +87,19 @@ void Progress::draw() {
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return;
   const auto now = std::chrono::steady_clock::now();
-  if (now < next_) return;
+  if (now >= next_) draw_line(now);
+}
+
+void Progress::draw_line(std::chrono::steady_clock::time_point now) {
   next_ = now + options_.interval;
   drawn_ = true;
   const std::int64_t done = done_.load();
   const std::chrono::duration<double> elapsed = now - begun_;
   time_left_.update(elapsed.count(), static_cast<double>(done) /
                                          static_cast<double>(std::max<std::int64_t>(total_, 1)));
-  std::string line = in_per_cent_ ? fmt::format("{}  {} %", label_, done / kStepsPerCent)
-                                  : fmt::format("{}  {} of {}", label_, done, total_);
+  std::string line = !in_per_cent_ ? fmt::format("{}  {} of {}", label_, done, total_)
+                     : done == 0   ? fmt::format("{}  {:.0f} s", label_, elapsed.count())
+                                   : fmt::format("{}  {} %", label_, done / kStepsPerCent);
   if (const auto seconds = time_left_.seconds()) line += ", " + time_left_text(*seconds);
   // A line that is longer than the terminal could not be wiped.
   if (line.size() >= output_width(options_.descriptor))

@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace flexarm::report {
 
@@ -14,17 +16,19 @@ struct ProgressOptions {
   int descriptor = 2;  ///< where to: standard error
   std::chrono::steady_clock::duration quiet_for = std::chrono::seconds(1);
   std::chrono::steady_clock::duration interval = std::chrono::milliseconds(100);
+  /// The line is renewed so often while a long step tells nothing.
+  std::chrono::steady_clock::duration tick = std::chrono::seconds(1);
   TimeLeftOptions time_left = {};
 };
 
 /// A line "label  12 of 40, 25 s left", or "label  30 %, 25 s left", that is rewritten while work
-/// goes on, and wiped when it ends. Nothing at all is written where `descriptor` is not a terminal,
-/// or before `quiet_for` has passed.
+/// goes on, and wiped when it ends; "label  25 s" while nothing of it is known to be done. Nothing
+/// at all is written where `descriptor` is not a terminal, or before `quiet_for` has passed.
 class Progress {
  public:
   /// Work of `total` steps that mean something to a reader.
   Progress(std::string label, std::int64_t total, const ProgressOptions& options = {});
-  /// Work of which a fraction is known: `reach` alone is called.
+  /// Work of which a fraction is known, or nothing: `reach` alone is called.
   explicit Progress(std::string label, const ProgressOptions& options = {});
   ~Progress();
   Progress(const Progress&) = delete;
@@ -37,7 +41,9 @@ class Progress {
   void reach(double fraction);
 
  private:
+  Progress(std::string label, std::int64_t total, bool in_per_cent, const ProgressOptions& options);
   void draw();
+  void draw_line(std::chrono::steady_clock::time_point now);
 
   const std::string label_;
   const std::int64_t total_;
@@ -51,6 +57,9 @@ class Progress {
   std::chrono::steady_clock::time_point next_;
   TimeLeft time_left_;
   bool drawn_ = false;
+  bool over_ = false;
+  std::condition_variable end_;
+  std::thread ticker_;  ///< on a terminal
 };
 
 }  // namespace flexarm::report

@@ -40,9 +40,9 @@ ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) cons
     return {name, "", exact_tf::ExactArm(arm)};
   }
   if (roots > kMostRoots) {
-    throw arm::out_of_range(
-        spelled("modes"), roots, "",
-        fmt::format("at most {} for {}; exact_tf has no limit", kMostRoots, name));
+    throw arm::InputError(
+        fmt::format("{}: needs {} roots; must be at most {} for {}; exact_tf has no limit",
+                    spelled("modes"), roots, kMostRoots, name));
   }
   if (name == fem::FemArm::kName) {
     refuse(spelled("basis"), basis, name);

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <mutex>
 #include <string>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -144,6 +145,10 @@ void write_atomically(const fs::path& path, std::string_view content) {
 
 namespace {
 
+arm::InputError written_by_another(const fs::path& path) {
+  return not_written(path, "another process has written files there meanwhile");
+}
+
 /// Whether a folder with files in it stands there.
 bool has_files(const fs::path& path) {
   std::error_code error;
@@ -162,12 +167,50 @@ void require_new_folder(const fs::path& path) {
   if (has_files(path)) throw not_written(path, "is a folder with files in it");
 }
 
+namespace {
+
+/// Throws where `folder`, which the user calls `path`, must not be written.
+void require_place_of(const fs::path& folder, const fs::path& path, IfExists if_exists,
+                      const std::optional<FolderSeen>& seen) {
+  const bool is_full = has_files(folder);
+  if (is_full && seen && folder_seen(folder) != *seen) throw written_by_another(path);
+  if (is_full && if_exists == IfExists::refuse) require_new_folder(folder);
+}
+
+/// While one lives, no other process that has one puts a folder into `parent`. A file system
+/// without such locks is written to all the same.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& parent)
+      : descriptor_(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_.is_open()) ::flock(descriptor_.get(), LOCK_EX);
+  }
+
+ private:
+  Descriptor descriptor_;
+};
+
+}  // namespace
+
+FolderSeen folder_seen(const fs::path& path) {
+  struct statx status = {};
+  if (::statx(AT_FDCWD, path.c_str(), 0, STATX_INO | STATX_BTIME, &status) != 0) return {};
+  FolderSeen seen;
+  seen.exists = true;
+  seen.device = (std::uint64_t{status.stx_dev_major} << 32U) | status.stx_dev_minor;
+  seen.inode = status.stx_ino;
+  if ((status.stx_mask & STATX_BTIME) != 0) {
+    constexpr std::int64_t kNanoseconds = 1'000'000'000;
+    seen.born_ns = status.stx_btime.tv_sec * kNanoseconds + status.stx_btime.tv_nsec;
+  }
+  return seen;
+}
+
 void write_folder_atomically(const fs::path& path, std::span<const NamedContent> files,
-                             IfExists if_exists) {
+                             IfExists if_exists, const std::optional<FolderSeen>& seen) {
   const std::scoped_lock lock(one_writer_at_a_time());
   const fs::path folder = target_of(without_slash(path));
-  if (if_exists == IfExists::refuse) require_new_folder(folder);
-  const bool exists = has_files(folder);
+  require_place_of(folder, path, if_exists, seen);
   make_folder(folder_of(folder));
 
   const SignalsHeldOff held_off;
@@ -175,15 +218,22 @@ void write_folder_atomically(const fs::path& path, std::span<const NamedContent>
     return ::mkdir(name.c_str(), 0777) == 0 ? 0 : errno;
   });
   if (error != 0) throw not_written(path, reason_of(error));
-  error = fill_folder(temporary, files);
-  if (error == 0) {
-    error = exists                                             ? exchange_folders(temporary, folder)
-            : ::rename(temporary.c_str(), folder.c_str()) == 0 ? 0
-                                                               : errno;
-  }
   std::error_code ignored;
+  try {
+    error = fill_folder(temporary, files);
+    if (error == 0) {
+      const FolderLock others(folder_of(folder));
+      require_place_of(folder, path, if_exists, seen);
+      error = has_files(folder) ? exchange_folders(temporary, folder)
+              : ::rename(temporary.c_str(), folder.c_str()) == 0 ? 0
+                                                                 : errno;
+    }
+  } catch (...) {
+    fs::remove_all(temporary, ignored);
+    throw;
+  }
   fs::remove_all(temporary, ignored);  // what was left of the new folder, or the old one
-  if (error == ENOTEMPTY) throw not_written(path, "another process has written files there");
+  if (error == ENOTEMPTY || error == EEXIST) throw written_by_another(path);
   if (error != 0) throw not_written(path, reason_of(error));
   synchronise_folder(folder_of(folder));
 }

@@ -23,10 +23,11 @@ double spacing(const FrequencyGrid& grid) {
 
 std::vector<double> logarithmic_frequencies(const FrequencyGrid& grid) {
   if (!(grid.from_Hz > 0.0) || !std::isfinite(grid.from_Hz)) {
-    throw arm::out_of_range("from_Hz", grid.from_Hz, "Hz", "above 0");
+    throw arm::out_of_range("from_Hz", grid.from_Hz, "Hz", "finite and above 0");
   }
-  if (!(grid.to_Hz > grid.from_Hz) || !std::isfinite(grid.to_Hz)) {
-    throw arm::out_of_range("to_Hz", grid.to_Hz, "Hz", fmt::format("above {} Hz", grid.from_Hz));
+  if (!std::isfinite(grid.to_Hz)) throw arm::out_of_range("to_Hz", grid.to_Hz, "Hz", "finite");
+  if (!(grid.to_Hz > grid.from_Hz)) {
+    throw arm::out_of_range("from_Hz", grid.from_Hz, "Hz", fmt::format("below {} Hz", grid.to_Hz));
   }
   if (grid.points < 2 || grid.points > kMostFrequencies) {
     throw arm::out_of_range("points", grid.points, "", fmt::format("2 to {}", kMostFrequencies));

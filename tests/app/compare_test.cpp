@@ -93,16 +93,16 @@ TEST_F(Compare, BadInputIsOneLineAndStatusTwo) {
   EXPECT_THAT(run({"compare", "bad.toml"}).errors,
               StartsWith("bad.toml:2: beam.lenght: unknown key (did you mean length?)"));
   expect_refused(run({"compare", "--sensor", "hub_angel"}),
-                 "sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
+                 "--sensor hub_angel: unknown (did you mean hub_angle?); allowed: hub_angle, "
                  "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in "
                  "metres from the hub)");
   expect_refused(run({"compare", "--sensor", "strain@3"}),
-                 "sensor strain@3: position must be from 0 to the beam's length, 0.96 m");
+                 "--sensor strain@3: position must be from 0 to the beam's length, 0.96 m");
   expect_refused(run({"compare", "--poels", "3"}),
                  "flexarm: --poels: unknown option (did you mean --poles?); "
                  "see flexarm compare --help");
-  expect_refused(run({"compare", "--poles", "0"}), "poles = 0: must be 1 or more");
-  expect_refused(run({"compare", "--poles", "1000000"}), "poles = 1000000: must be 90 or less");
+  expect_refused(run({"compare", "--poles", "0"}), "--poles = 0: must be 1 or more");
+  expect_refused(run({"compare", "--poles", "1000000"}), "--poles = 1000000: must be 90 or less");
   expect_refused(run({"compare", "--payload-mass", "-1"}),
                  "--payload-mass -1 kg: payload.mass = -1 kg: must be a finite number, 0 or more");
   EXPECT_EQ(names_in(), (std::vector<std::string>{"bad.toml"}));

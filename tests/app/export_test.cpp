@@ -46,7 +46,7 @@ TEST_F(ExportCommand, RefusesWhatDoesNotGoTogether) {
   expect_refused(run({"export", "rig.toml", "--fmu", "--period", "0"}),
                  "--period = 0 s: must be a finite number above 0");
   expect_refused(run({"export", "rig.toml", "--fmu", "--modes", "0"}),
-                 "--modes = 0: must be 1 or more");
+                 "--modes = 0: must be 1 to 2000");
   EXPECT_EQ(names_in(), std::vector<std::string>{"rig.toml"});
 }
 

@@ -115,7 +115,7 @@ TEST_F(Flexarm, NewSaysWhyAFileCannotBeWritten) {
   expect_refused(run({"new", "none/rig.toml"}),
                  "none/rig.toml: cannot be written: there is no folder none");
   expect_refused(run({"new", "--force", "."}), ".: cannot be written: is a folder");
-  expect_refused(run({"new", ""}), "the name of a file is empty");
+  expect_refused(run({"new", ""}), "flexarm: FILE: is empty; see flexarm new --help");
 }
 
 TEST_F(Flexarm, AClosedPipeEndsItWithoutAWord) {

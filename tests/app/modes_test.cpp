@@ -70,7 +70,7 @@ TEST_F(Modes, TheCertificateIsOfTheExactRootsWhicheverFormulationIsShown) {
 TEST_F(Modes, MoreModesThanADiscreteModelIsMadeForAreRefused) {
   const Ended ended = run({"modes", "--formulation", "fem", "--modes", "1000"});
   EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.errors, HasSubstr("--modes = 1000: must be at most 90 for fem"));
+  EXPECT_THAT(ended.errors, HasSubstr("--modes: needs 1000 roots; must be at most 90 for fem; exact_tf"));
 }
 
 TEST_F(Modes, RootsThatAModelDoesNotHaveAreCounted) {
@@ -100,10 +100,10 @@ TEST_F(Modes, BadInputIsOneLineAndStatusTwo) {
   expect_refused(run({"modes", "--formulation", "assumed_modes", "--degree", "9"}),
                  "--degree: not a setting of assumed_modes");
   EXPECT_THAT(run({"modes", "--formulation", "assumed_modes", "--basis", "legendr"}).errors,
-              StartsWith("basis legendr: unknown (did you mean legendre?)"));
+              StartsWith("--basis legendr: unknown (did you mean legendre?)"));
   expect_refused(run({"modes", "--modes", "0"}), "--modes = 0: must be 1 or more");
   expect_refused(run({"modes", "--sensor", "strain@0.96"}),
-                 "sensor strain@0.96: strain at the tip is identically zero without "
+                 "--sensor strain@0.96: strain at the tip is identically zero without "
                  "payload.inertia; place it below 0.96 m");
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -91,6 +93,38 @@ TEST_F(OutputRules, AnInterruptedSweepIsContinuedOrBegunAnewButNotByTheWay) {
   EXPECT_EQ(text_of("out/sweep.checkpoint"), "hours of work");
   EXPECT_EQ(run(call + Words{"--force"}).status, 0);
   EXPECT_THAT(names_in("out"), Not(testing::Contains("sweep.checkpoint")));
+}
+
+TEST_F(OutputRules, OfTwoCommandsThatWriteOneFolderOneWinsWholeAndTheOtherSaysSo) {
+  for (const Words& force : {Words{}, Words{"--force"}}) {
+    for (const auto& command : commands_with_a_folder()) {
+      if (command.front() == "paper" || command.front() == "compare") continue;  // of a second each
+      SCOPED_TRACE(testing::PrintToString(command + force));
+      fs::remove_all(folder_ / "out");
+      const Words call = command + Words{"--out", "out"};
+      if (!force.empty()) {
+        ASSERT_EQ(run(call).status, 0);
+      }
+      auto other = std::async(std::launch::async, [&] { return run(call + force); });
+      const Ended one = run(call + force);
+      const std::vector<Ended> both = {one, other.get()};
+      const auto refused = std::ranges::count(both, 2, &Ended::status);
+      EXPECT_EQ(std::ranges::count(both, 0, &Ended::status) + refused, 2);
+      // A command that begins when the other has ended replaces its folder, where told to.
+      EXPECT_TRUE(refused == 1 || (refused == 0 && !force.empty())) << refused;
+      for (const Ended& ended : both) {
+        if (ended.status == 0) continue;
+        EXPECT_THAT(ended.errors,
+                    AllOf(HasSubstr("out: "), testing::AnyOf(HasSubstr("another process has"),
+                                                             HasSubstr("has the checkpoint"),
+                                                             HasSubstr("with files in it"))));
+      }
+      const auto names = names_in("out");
+      EXPECT_EQ(run(command + Words{"--out", "alone"}).status, 0);
+      EXPECT_EQ(names, names_in("alone"));
+      fs::remove_all(folder_ / "alone");
+    }
+  }
 }
 
 TEST_F(OutputRules, JsonOnStandardOutputStandsAlone) {

@@ -180,7 +180,7 @@ TEST_F(Response, BadInputIsOneLineAndStatusTwo) {
   expect_refused(run({"response", "--state-space", "a.mat", "--payload-mass", "0,0.1"}),
                  "--state-space: needs one arm; --payload-mass has several values");
   expect_refused(run({"response", "--sensor", "strain@0.96"}),
-                 "sensor strain@0.96: strain at the tip is identically zero without "
+                 "--sensor strain@0.96: strain at the tip is identically zero without "
                  "payload.inertia; place it below 0.96 m");
   EXPECT_THAT(run({"response", "--sensor", "tip_accelaration"}).errors,
               HasSubstr("did you mean tip_acceleration?"));

@@ -104,9 +104,9 @@ TEST_F(RigidHubCommand, WhatNeedsABeamIsRefusedInOneLine) {
   refused({"modes", "hub.toml"}, "modes");
   refused({"compare", "hub.toml"}, "compare");
   refused({"sweep", "hub.toml", "--over", "hub.inertia=1.0,2.0"}, "sweep");
-  refused({"simulate", "hub.toml", "--sensor", "tip_acceleration"}, "sensor tip_acceleration");
-  refused({"response", "hub.toml", "--sensor", "strain@0.05"}, "sensor strain@0.05");
-  refused({"simulate", "hub.toml", "--payload-mass", "0.1"}, "payload.mass = 0.1 kg");
+  refused({"simulate", "hub.toml", "--sensor", "tip_acceleration"}, "--sensor tip_acceleration");
+  refused({"response", "hub.toml", "--sensor", "strain@0.05"}, "--sensor strain@0.05");
+  refused({"simulate", "hub.toml", "--payload-mass", "0.1"}, "--payload-mass = 0.1 kg");
 }
 
 }  // namespace

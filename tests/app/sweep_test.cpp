@@ -88,7 +88,7 @@ TEST_F(Sweep, BadInputIsOneLineAndStatusTwoBeforeAnyWork) {
   EXPECT_THAT(run({"sweep", "--over", "payload.mas=0:1:3", "--out", "out"}).errors,
               HasSubstr("(did you mean payload.mass?)"));
   expect_refused(run({"sweep", "--over", "payload.mass=-1:1:3", "--out", "out"}),
-                 "payload.mass = -1 kg: must be a finite number, 0 or more");
+                 "--over payload.mass = -1 kg: must be a finite number, 0 or more");
   expect_refused(run({"sweep", "--over", "payload.mass=0.0,1", "--formulation", "fme"}),
                  "--formulation fme: unknown (did you mean fem?); allowed: exact_tf, fem, "
                  "assumed_modes");

@@ -1,20 +1,19 @@
 #include "tests/app/terminal_session.hpp"
 
 #include <array>
-#include <chrono>
 #include <cstdlib>
+#include <poll.h>
 #include <pty.h>
 #include <stdexcept>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 
 namespace flexarm::testing_app {
 
 namespace {
 
-/// Longer than a line of progress waits.
-constexpr std::chrono::milliseconds kAtWork(1300);
+/// Far longer than a line of progress waits [ms].
+constexpr int kAtWork_ms = 20'000;
 constexpr char kCtrlC = '\x03';
 
 struct Session {
@@ -66,7 +65,8 @@ Ended run_on_terminal(const std::vector<std::string>& arguments, unsigned short 
 
 Ended interrupt_on_terminal(const std::vector<std::string>& arguments, unsigned short columns) {
   const Session session = start_session(arguments, columns, {});
-  std::this_thread::sleep_for(kAtWork);
+  pollfd progress = {session.terminal, POLLIN, 0};
+  ::poll(&progress, 1, kAtWork_ms);
   [[maybe_unused]] const ssize_t typed = ::write(session.terminal, &kCtrlC, 1);
   return finish_session(session);
 }

@@ -13,7 +13,7 @@ namespace flexarm::testing_app {
 Ended run_on_terminal(const std::vector<std::string>& arguments, unsigned short columns,
                       const std::map<std::string, std::string>& environment = {});
 
-/// The same, with Ctrl-C typed once the program is at work.
+/// The same, with Ctrl-C typed once the program shows its progress.
 Ended interrupt_on_terminal(const std::vector<std::string>& arguments, unsigned short columns);
 
 }  // namespace flexarm::testing_app

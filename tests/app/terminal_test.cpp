@@ -12,6 +12,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flexarm::testing_app {
@@ -63,10 +64,20 @@ TEST_F(Terminal, TheVerdictIsColouredUnlessTheUserSaysNo) {
   EXPECT_THAT(run(kQuick).output, AllOf(HasSubstr("agree"), Not(HasSubstr("\x1b"))));
 }
 
-TEST_F(Terminal, CtrlCLeavesOneLine) {
-  const Ended ended = interrupt_on_terminal({"simulate", "--duration", "5000"}, 80);
-  EXPECT_EQ(ended.status, 128 + SIGINT);
-  EXPECT_THAT(ended.output, EndsWith("\r\x1b[Kflexarm: interrupted\r\n"));
+TEST_F(Terminal, CtrlCLeavesOneLineAndNoFile) {
+  const std::string out = (folder_ / "out").string();
+  for (const auto& [call, progress] :
+       {std::pair{std::vector<std::string>{"simulate", "--duration", "5000", "--out", out},
+                  "bang-bang, samples  "},
+        // Its steps are long: the time shows that they go on.
+        std::pair{std::vector<std::string>{"modes", "--modes", "500000", "--out", out},
+                  "computing modes  1 s"}}) {
+    const Ended ended = interrupt_on_terminal(call, 80);
+    EXPECT_EQ(ended.status, 128 + SIGINT);
+    EXPECT_THAT(ended.output,
+                AllOf(HasSubstr(progress), EndsWith("\r\x1b[Kflexarm: interrupted\r\n")));
+    EXPECT_TRUE(names_in().empty());
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -258,6 +259,53 @@ TEST_F(AtomicFolder, IsReplacedAsAWholeWhenAsked) {
   EXPECT_EQ(text_of(folder_ / "x" / "c.txt"), "third");
   EXPECT_FALSE(fs::exists(folder_ / "x" / "a.txt"));
   EXPECT_EQ(files_in_folder(), 1);
+}
+
+TEST_F(AtomicFolder, OfTwoWritersTheSecondIsRefusedAndTheFirstStaysWhole) {
+  const std::vector<NamedContent> others = {{"c.txt", "third"}};
+  const fs::path folder = folder_ / "x";
+  const std::string refusal =
+      folder.string() + ": cannot be written: another process has written files there meanwhile";
+  for (const IfExists if_exists : {IfExists::refuse, IfExists::replace}) {
+    const FolderSeen seen = folder_seen(folder);  // nothing, then the folder of the first turn
+    write_folder_atomically(folder, kTwoFiles, if_exists, seen);
+    EXPECT_EQ(error_of([&] { write_folder_atomically(folder, others, if_exists, seen); }), refusal);
+    EXPECT_EQ(text_of(folder / "a.txt"), "first");
+    EXPECT_FALSE(fs::exists(folder / "c.txt"));
+    EXPECT_EQ(files_in_folder(), 1);
+  }
+  write_folder_atomically(folder, others, IfExists::replace, folder_seen(folder));
+  EXPECT_EQ(text_of(folder / "c.txt"), "third");
+}
+
+TEST_F(AtomicFolder, OfManyWritersAtATimeOneWins) {
+  constexpr int kWriters = 8;
+  const fs::path folder = folder_ / "x";
+  for (const IfExists if_exists : {IfExists::refuse, IfExists::replace}) {
+    const FolderSeen seen = folder_seen(folder);
+    std::vector<pid_t> writers;
+    for (int i = 0; i < kWriters; ++i) {
+      writers.push_back(::fork());
+      if (writers.back() != 0) continue;
+      const std::vector<NamedContent> own = {{"a.txt", std::to_string(i)},
+                                             {"b.txt", std::to_string(i)}};
+      const std::string error =
+          error_of([&] { write_folder_atomically(folder, own, if_exists, seen); });
+      ::_exit(error == "no error" ? 0 : 1);
+    }
+    int winners = 0;
+    int winner = -1;
+    for (int i = 0; i < kWriters; ++i) {
+      int status = 0;
+      ::waitpid(writers[static_cast<std::size_t>(i)], &status, 0);
+      if (status == 0) winner = i;
+      winners += status == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(winners, 1);
+    EXPECT_EQ(text_of(folder / "a.txt"), std::to_string(winner));
+    EXPECT_EQ(text_of(folder / "b.txt"), std::to_string(winner));
+    EXPECT_EQ(files_in_folder(), 1);
+  }
 }
 
 TEST_F(AtomicFolder, WhatCannotBeWrittenLeavesTheOldOneAndNothingElse) {

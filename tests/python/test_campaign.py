@@ -15,7 +15,7 @@ from unittest import mock
 import dask
 
 import flexarm
-from flexarm.campaign import cluster, open_results
+from flexarm.campaign import cluster, file_digests, open_results, runner, task_files
 
 from campaign_case import WAITS_S, CampaignCase
 
@@ -156,6 +156,74 @@ class Sweep(CampaignCase):
 
 def probe(count, rest=""):
     return f'kind = "campaign_kinds.probe"\n[probe]\ncount = {count}\n{rest}'
+
+
+class KeptHashes(CampaignCase):
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "a.csv"
+        self.file.write_text("1,2\n")
+        self.kept = self.folder / "file-digests.sqlite"
+        self.read = []
+        digest = task_files.file_digest
+
+        def counted(path):
+            self.read.append(path)
+            return digest(path)
+
+        self.enterContext(mock.patch.object(file_digests, "file_digest", counted))
+        self.enterContext(mock.patch.object(file_digests, "_SETTLED_NS", 0))
+
+    def digest(self, path=None):
+        """As a start of a campaign finds it."""
+        with contextlib.closing(file_digests.FileDigests(self.kept)) as digests:
+            return digests(path or self.file)
+
+    def test_a_file_is_read_again_only_where_it_changed(self):
+        first = self.digest()
+        self.assertEqual(first, task_files.file_digest(self.file))
+        self.assertEqual(self.digest(), first)
+        self.assertEqual(len(self.read), 1)
+        # Of the same size, and with the old time of modification.
+        status = self.file.stat()
+        self.file.write_text("1,3\n")
+        os.utime(self.file, ns=(status.st_atime_ns, status.st_mtime_ns))
+        self.assertNotEqual(self.digest(), first)
+        self.assertEqual(len(self.read), 2)
+        other = self.folder / "b.csv"
+        other.write_text("1,2\n")
+        other.replace(self.file)
+        self.assertEqual(self.digest(), first)
+        self.assertEqual(len(self.read), 3)
+
+    def test_what_has_just_changed_or_is_missing_is_not_kept(self):
+        with mock.patch.object(file_digests, "_SETTLED_NS", 10**12):
+            self.digest()
+            self.digest()
+        self.assertEqual(len(self.read), 2)
+        missing = self.folder / "none.csv"
+        self.assertEqual(self.digest(missing), "cannot be read: No such file or directory")
+        missing.write_text("")
+        self.assertEqual(self.digest(missing), task_files.file_digest(missing))
+
+    def test_a_file_of_kept_hashes_that_is_damaged_is_made_anew(self):
+        first = self.digest()
+        self.kept.write_bytes(b"no database" * 1000)
+        self.assertEqual(self.digest(), first)
+        self.assertEqual(self.digest(), first)
+        self.assertEqual(len(self.read), 2)
+
+
+class Orders(unittest.TestCase):
+    def test_are_as_large_as_the_scheduler_needs_and_all_workers_allow(self):
+        self.assertEqual(runner.order_size(1.0, 1000, 2), 1)
+        self.assertEqual(runner.order_size(0.001, 10**6, 2), 32)
+        self.assertEqual(runner.order_size(0.005, 10**6, 2), 10)
+        self.assertEqual(runner.order_size(0.001, 80, 2), 5)  # each worker gets some
+        # Ten thousand workers and tasks of 2 s: 25 in an order, 50 s; at the end one by one.
+        self.assertEqual(runner.order_size(2.0, 10**7, 10_000), 25)
+        self.assertEqual(runner.order_size(2.0, 10**4, 10_000), 1)
+        self.assertEqual(runner.order_size(1e-5, 10**9, 10_000), 1000)
 
 
 class Deaths(CampaignCase):

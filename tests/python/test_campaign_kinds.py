@@ -1,9 +1,11 @@
 """Kinds of campaigns beside the sweep, which test_campaign.py has."""
 
+import csv
 import json
 import os
 import pathlib
 import re
+import statistics
 import unittest
 
 import flexarm
@@ -184,6 +186,17 @@ draws = 3
         for row in rows[1:]:
             ratio = float(row["estimation_nrmse_after"]) / float(rows[0]["estimation_nrmse_after"])
             self.assertLess(abs(ratio - 1.0), 0.2)
+        with open(self.folder / "c-results" / "bootstrap.csv", newline="") as stream:
+            row = next(one for one in csv.DictReader(stream) if one["cause"] == "time_delay")
+        self.assertEqual((row["parameter"], row["unit"]), ("delay", "s"))
+        self.assertEqual((row["draws"], row["named"]), ("3", "3"))
+        self.assertEqual(float(row["measurement"]), delays_s[0])
+        self.assertAlmostEqual(float(row["mean"]), statistics.mean(delays_s[1:]), delta=1e-15)
+        spread = statistics.stdev(delays_s[1:])
+        self.assertAlmostEqual(float(row["standard deviation"]), spread, delta=1e-9 * spread)
+        self.assertEqual(float(row["50.0 %"]), statistics.median(delays_s[1:]))
+        low, high = sorted(delays_s[1:])[:: 2]
+        self.assertTrue(low < float(row["2.5 %"]) < float(row["97.5 %"]) < high)
 
     def test_what_cannot_be_simulated_is_refused(self):
         self.record("a", 0.01)

@@ -71,6 +71,20 @@ TEST(Progress, SaysHowMuchTimeIsLeft) {
             "\r\x1b[Kfitting  50 %, 1 s left\r\x1b[Kfitting  50 %, 1 s left\r\x1b[K");
 }
 
+TEST(Progress, ShowsThatALongStepGoesOn) {
+  const PseudoTerminal terminal;
+  ASSERT_GE(terminal.descriptor(), 0);
+  {
+    const Progress progress(
+        "writing files",
+        {.descriptor = terminal.descriptor(), .quiet_for = 0s, .interval = 0s, .tick = 5ms});
+    std::this_thread::sleep_for(100ms);
+  }
+  const std::string output = terminal.output();
+  EXPECT_THAT(output, testing::StartsWith("\r\x1b[Kwriting files  0 s\r\x1b[Kwriting files  0 s"));
+  EXPECT_THAT(output, testing::EndsWith("s\r\x1b[K"));
+}
+
 TEST(Progress, FitsInANarrowTerminal) {
   const PseudoTerminal terminal(30);
   ASSERT_GE(terminal.descriptor(), 0);

@@ -91,6 +91,10 @@ class _Line:
             text += f", {_duration(left_s)} left"
         self._line(ended / total, text)
 
+    def hashed(self, count, total):
+        if self._line is not None:
+            self._line(count / total, f"files of {count} of {total} tasks hashed")
+
     def close(self):
         if self._line is not None:
             self._line.close()
@@ -153,6 +157,7 @@ def _run(arguments):
             address=arguments.scheduler,
             workers=arguments.workers or len(os.sched_getaffinity(0)),
             progress=line,
+            starting=lambda hashed: line.hashed(hashed, len(campaign.tasks)),
         )
         try:
             outcome = runner.run()

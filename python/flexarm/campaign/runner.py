@@ -2,6 +2,7 @@
 
 import asyncio
 import concurrent.futures
+import contextlib
 import csv
 import dataclasses
 import functools
@@ -13,8 +14,9 @@ import time
 
 from .cluster import LocalCluster, RemoteCluster
 from .errors import CampaignError
+from .file_digests import FileDigests
 from .program import program_digest
-from .task_files import file_digest, finished, task_digest
+from .task_files import finished, task_digest
 from .work import Shared, run_order
 
 # So many orders a worker are with the scheduler: enough that none waits for the next, few enough
@@ -23,7 +25,11 @@ _IN_FLIGHT_PER_WORKER = 4
 # Short tasks go out together, so many that an order takes some time, as long as there are orders
 # for all workers.
 _ORDER_TAKES_S = 0.05
+# Command and scheduler spend some 2.5 ms on an order (docs/scale.md). With so many workers that they
+# could not keep up, orders are larger: half of the time of both is left.
+_ORDER_COSTS_S = 0.005
 _MOST_IN_AN_ORDER = 32
+_MOST_PER_WORKER = 0.1
 _WEIGHT_OF_THE_LAST = 0.1
 _LOOKS_EVERY_S = 0.2
 _CONNECTS_EVERY_S = 2.0
@@ -49,6 +55,19 @@ class Outcome:
     ended: int = 0  # in this run, failures included
 
 
+def order_size(mean_s, left, workers):
+    """How many tasks of `mean_s` seconds go out as one order, of `left` for `workers`; 1 or more."""
+    takes_s = max(_ORDER_TAKES_S, _ORDER_COSTS_S * workers)
+    return max(
+        min(
+            takes_s / max(mean_s, 1e-6),
+            left / (2 * _IN_FLIGHT_PER_WORKER * workers),
+            max(_MOST_IN_AN_ORDER, _MOST_PER_WORKER * workers),
+        ),
+        1,
+    )
+
+
 class _Lost(Exception):
     """The scheduler is gone."""
 
@@ -56,15 +75,20 @@ class _Lost(Exception):
 class Runner:
     """Runs what has no result yet. `address` is that of a scheduler, or None for `workers` here.
 
-    `progress` is called with (ended, total, failed, seconds left or None).
+    `progress` is called with (ended, total, failed, seconds left or None), before that `starting`
+    with the number of tasks whose files have been hashed.
     """
 
-    def __init__(self, campaign, out, *, address=None, workers=1, progress=lambda *_: None):
+    def __init__(
+        self, campaign, out, *, address=None, workers=1, progress=lambda *_: None,
+        starting=lambda hashed: None,
+    ):
         self._campaign = campaign
         self._out = out
         self._address = address
         self._workers = workers
         self._progress = progress
+        self._starting = starting
         self._run = secrets.token_hex(8)
         self._generation = 0
         self._serial = 0
@@ -105,14 +129,16 @@ class Runner:
     def _known(self):
         """Finds the digest of each task, and which have a result."""
         done = finished(self._out)
-        digest_of_file = functools.lru_cache(maxsize=100_000)(file_digest)
         campaign = self._campaign
-        for task in campaign.tasks:
-            text = task_digest(
-                campaign.kind_name, campaign.kind, task, campaign.folder, self._program,
-                digest_of_file,
-            )
-            self.outcome.digests.append(bytes.fromhex(text))
+        with contextlib.closing(FileDigests(self._out / "file-digests.sqlite")) as digests:
+            digest_of_file = functools.lru_cache(maxsize=100_000)(digests)
+            for task in campaign.tasks:
+                text = task_digest(
+                    campaign.kind_name, campaign.kind, task, campaign.folder, self._program,
+                    digest_of_file,
+                )
+                self.outcome.digests.append(bytes.fromhex(text))
+                self._starting(len(self.outcome.digests))
         self.outcome.before = sum(one in done for one in self.outcome.digests)
         return done
 
@@ -152,16 +178,10 @@ class Runner:
         return bool(self._in_flight)
 
     def _next_order(self, workers):
-        size = 1
-        if self._mean_s is not None:
-            left = len(self.outcome.digests) - self.outcome.before - self.outcome.ended
-            size = min(
-                _ORDER_TAKES_S / max(self._mean_s, 1e-6),
-                left / (2 * _IN_FLIGHT_PER_WORKER * workers),
-                _MOST_IN_AN_ORDER,
-            )
+        left = len(self.outcome.digests) - self.outcome.before - self.outcome.ended
+        size = 1 if self._mean_s is None else order_size(self._mean_s, left, workers)
         tasks = []
-        while len(tasks) < max(size, 1):
+        while len(tasks) < size:
             if self._again:
                 tasks.append(self._again.pop())
             elif self._next_task is not None:

@@ -13,14 +13,17 @@ import tomllib
 from pathlib import Path
 
 import flexarm
+import numpy
 
 from ..effect_names import effects_in
 from ..named_files import named_files
+from ..task_files import whole_files
 from . import diagnose
 
 _MOST_DRAWS = 10_000_000
 WORST = diagnose.WORST
 FLAGGED = diagnose.FLAGGED
+_PERCENT = (2.5, 50.0, 97.5)  # the interval of 95 %, and its median
 TALLY = diagnose.TALLY
 
 
@@ -177,3 +180,39 @@ def row(task, result):
         for parameter, estimate in cause["parameters"].items():
             cells[f"{_name(cause)}.{parameter}"] = estimate["value"]
     return cells
+
+
+def _estimates(pairs):
+    """(value of the measurement or None, [values of the draws], unit) by cause and parameter, and
+    the number of draws that have a result."""
+    found, draws = {}, 0
+    for task, result in pairs:
+        draws += result is not None and task["draw"] > 0
+        for cause in result["causes"] if result else []:
+            for parameter, estimate in cause["parameters"].items():
+                one = found.setdefault((_name(cause), parameter), [None, [], estimate["unit"]])
+                if task["draw"] == 0:
+                    one[0] = estimate["value"]
+                else:
+                    one[1].append(estimate["value"])
+    return found, draws
+
+
+def finish(pairs, folder, out):
+    """Writes `bootstrap.csv`: for each parameter of a cause its distribution over the draws in
+    which the cause is named."""
+    found, draws = _estimates(pairs)
+    with whole_files(out / "bootstrap.csv") as (temporary,):
+        with open(temporary, "x", newline="", encoding="utf-8") as stream:
+            rows = csv.writer(stream, lineterminator="\n")
+            rows.writerow(
+                ["cause", "parameter", "unit", "draws", "named", "measurement", "mean",
+                 "standard deviation", *(f"{one} %" for one in _PERCENT)]
+            )
+            for (cause, parameter), (measured, values, unit) in sorted(found.items()):
+                cells = [None] * (2 + len(_PERCENT))
+                if values:
+                    spread = float(numpy.std(values, ddof=1)) if len(values) > 1 else None
+                    percentiles = numpy.percentile(values, _PERCENT).tolist()
+                    cells = [float(numpy.mean(values)), spread, *percentiles]
+                rows.writerow([cause, parameter, unit, draws, len(values), measured, *cells])

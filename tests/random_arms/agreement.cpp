@@ -25,11 +25,11 @@ void add_findings(const compare::FeatureFamily& family, std::size_t number,
       const auto& first = answers[a].roots[number].s_rad_per_s;
       const auto matched = compare::match(family, first, answers[b].roots[number].s_rad_per_s);
       for (std::size_t i = 0; i < first.size(); ++i) {
-        findings.push_back({fmt::format("{} {}", label(family), i + 1), answers[a].formulation,
-                            answers[b].formulation,
-                            matched[i] ? compare::relative_distance(*matched[i], first[i])
-                                       : compare::kMissing,
-                            kRootTolerance});
+        findings.push_back(
+            {fmt::format("{} {}", label(family), i + 1), answers[a].formulation,
+             answers[b].formulation,
+             matched[i] ? compare::relative_distance(*matched[i], first[i]) : compare::kMissing,
+             kRootTolerance});
       }
     }
   }
@@ -47,7 +47,8 @@ Agreement agreement_of(const arm::Arm& arm) {
     Answer answer{model.name, {}};
     try {
       const auto formulation = model.make(arm);
-      for (const auto& family : families) answer.roots.push_back(compare::roots(formulation, family));
+      for (const auto& family : families)
+        answer.roots.push_back(compare::roots(formulation, family));
       answers.push_back(std::move(answer));
     } catch (const arm::InputError& error) {
       agreement.refusals.push_back({model.name, error.what()});

@@ -34,8 +34,8 @@ struct Agreement {
 /// Relative difference up to which two roots agree.
 inline constexpr double kRootTolerance = 1e-9;
 
-/// exact_tf, fem and assumed_modes at the settings of `flexarm compare`, in its ten poles, ten zeros
-/// of the hub angle and six zeros of the tip.
+/// exact_tf, fem and assumed_modes at the settings of `flexarm compare`, in its ten poles, ten
+/// zeros of the hub angle and six zeros of the tip.
 Agreement agreement_of(const arm::Arm& arm);
 
 }  // namespace flexarm::random_arms

@@ -92,8 +92,9 @@ void print_worst(const std::vector<Agreement>& all, const RunOptions& options) {
                each.alone.empty() ? "" : "; alone: " + each.alone);
     if (options.out.empty()) continue;
     std::filesystem::create_directories(options.out);
-    measured::write_arm_file(random_arm(options.seed, index),
-                             std::filesystem::path(options.out) / fmt::format("arm-{}.toml", index));
+    measured::write_arm_file(
+        random_arm(options.seed, index),
+        std::filesystem::path(options.out) / fmt::format("arm-{}.toml", index));
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].outcome != Outcome::failed) continue;

@@ -12,12 +12,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace flexarm::assumed_modes {
 
 namespace {
 
 constexpr std::array kMoreFunctions = {2, 4};
+
+/// Mean rates of decay.
+constexpr Real kFirstRate = 6;
+constexpr Real kRateStep = 18;
+constexpr Real kLargestRate = 96;
 
 /// Between the first zeros of a beam's strain, and on none of them by accident.
 constexpr Real kShiftOfStrain = 37.3L;
@@ -31,30 +37,10 @@ bool shows_tip(const arm::Sensor& sensor) {
 /// twice this rate.
 constexpr Real kResolvedRate = 24;
 
-int functions_at(Real rate, int functions) {
+int functions_at(Real mean_rate, int functions) {
   constexpr int kEnough = 40;
-  const Real steeper = std::max(Real{0}, rate - kResolvedRate);
+  const Real steeper = std::max(Real{0}, mean_rate - kResolvedRate);
   return functions + static_cast<int>(std::ceil(steeper * std::min(functions, kEnough) / kEnough));
-}
-
-/// The zero problem in functions times exp(-r xi), factorised at `shift`.
-struct Decay {
-  Real rate = 0;
-  Real shift = 0;
-
-  /// Factorised where solutions of a beam without tension decay as exp(-r xi).
-  static Decay with(Real rate) { return {rate, 4 * std::pow(rate, 4)}; }
-};
-
-PencilZeros zeros_in(const Decay& decay, const arm::Sensor& sensor, const arm::LinearArm& linear,
-                     const ScaledArm& arm, StrainFunctionCount count) {
-  const StrainFunctions functions(arm, count);
-  const DecayingFunctions trial(functions, arm, decay.rate);
-  const Vector output = shows_tip(sensor)
-                            ? trial.displacement(1)
-                            : trial.curvature(sensor.position_m / Real{linear.length_m});
-  return pencil_zeros(decaying_pencil(functions, arm, trial, decay.rate, shows_tip(sensor)), output,
-                      decay.shift);
 }
 
 }  // namespace
@@ -75,28 +61,31 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
     return pencil_zeros(functions, beyond, output_row(sensor, arm, functions).row,
                         shows_tip(sensor));
   };
-  const auto decaying = [&](const Decay& decay, int more) {
-    return zeros_in(
-        decay, sensor, arm, beyond,
-        {.on_whole_beam = functions_at(decay.rate, options.functions) - 1, .more = more});
+  const std::optional<Real> strain_at =
+      shows_tip(sensor) ? std::nullopt : std::optional(sensor.position_m / Real{arm.length_m});
+  const auto decaying = [&](Real mean_rate, int more) {
+    const Decay decay = decay_of(beyond, mean_rate);
+    const StrainFunctions functions(
+        beyond, {.on_whole_beam = functions_at(mean_rate, options.functions) - 1, .more = more});
+    const Real shift =
+        mean_rate < kFirstRate ? strain_at ? kShiftOfStrain : 0 : decay.sigma_squared;
+    return pencil_zeros(decaying_pencil(functions, beyond, decay, strain_at), shift);
+  };
+  // Checks have other rates, so that their rounding is another.
+  const auto checks_of = [&](Real mean_rate) {
+    return std::array{decaying(mean_rate + 1, kMoreFunctions[0]),
+                      decaying(mean_rate + 2, kMoreFunctions[1])};
   };
 
   const PencilZeros slow = without_decay(0);
-  if (may_decay) {
-    const Real shift = shows_tip(sensor) ? 0 : kShiftOfStrain;
-    add(slow, {decaying({1, shift}, kMoreFunctions[0]), decaying({2, shift}, kMoreFunctions[1])});
-  } else {
-    add(slow, {without_decay(kMoreFunctions[0]), without_decay(kMoreFunctions[1])});
-  }
-  constexpr Real kFirstRate = 6;
-  constexpr Real kRateStep = 18;
-  constexpr Real kLargestRate = 96;
+  add(slow, may_decay
+                ? checks_of(0)
+                : std::array{without_decay(kMoreFunctions[0]), without_decay(kMoreFunctions[1])});
   Real largest_rate = 0;
   for (Real rate = kFirstRate; may_decay && rate <= kLargestRate && !zeros.are_settled(count);
        rate += kRateStep) {
     largest_rate = rate;
-    add(decaying(Decay::with(rate), 0), {decaying(Decay::with(rate + 1), kMoreFunctions[0]),
-                                         decaying(Decay::with(rate + 2), kMoreFunctions[1])});
+    add(decaying(rate, 0), checks_of(rate));
   }
 
   arm::ZeroSet result = zeros.zero_set(count, arm::omega_scale_rad_per_s(arm));
@@ -105,7 +94,7 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
   result.summary.method = fmt::format(
       "Rosenbrock pencil on {} functions ({}){}; residual: relative change with {} and {} more",
       options.functions, to_string(options.basis),
-      largest_rate > 0 ? fmt::format(", and on functions times exp(-r x/l) with r up to {}",
+      largest_rate > 0 ? fmt::format(", and on functions that decay with mean rates up to {}",
                                      static_cast<double>(largest_rate))
                        : "",
       kMoreFunctions[0], kMoreFunctions[1]);

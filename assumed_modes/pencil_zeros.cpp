@@ -121,9 +121,9 @@ PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& 
   return solved(reduced_problem(functions, arm, output, mass_rows(functions, arm, tip_is_held)));
 }
 
-PencilZeros pencil_zeros(const DecayingPencil& pencil, const Vector& output, Real shift) {
+PencilZeros pencil_zeros(const DecayingPencil& pencil, Real shift) {
   // Columns on the right null space of b.
-  const Eigen::HouseholderQR<Matrix> turn(output);
+  const Eigen::HouseholderQR<Matrix> turn(pencil.output);
   const auto beside_output = [&turn](Matrix rows) {
     rows.applyOnTheRight(turn.householderQ());
     return Matrix(rows.rightCols(rows.cols() - 1));

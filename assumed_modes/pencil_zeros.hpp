@@ -41,8 +41,8 @@ struct PencilZeros {
 PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& arm,
                          const Vector& output, bool tip_is_held);
 
-/// The same of the pencil in functions that decay from the hub and test functions that grow, b in
-/// the trial functions. `shift` is sigma_0^2 at which the pencil is factorised.
-PencilZeros pencil_zeros(const DecayingPencil& pencil, const Vector& output, Real shift);
+/// The same of the pencil in functions that decay from the hub and test functions that grow.
+/// `shift` is sigma_0^2, at which the pencil is factorised.
+PencilZeros pencil_zeros(const DecayingPencil& pencil, Real shift);
 
 }  // namespace flexarm::assumed_modes

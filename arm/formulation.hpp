@@ -65,6 +65,9 @@ struct RejectedZero {
 struct ZeroSet {
   /// One of each pair +-s or quadruple +-s, +-conj(s): Re >= 0, Im >= 0; ascending in |s|.
   std::vector<std::complex<double>> s_rad_per_s;
+  /// How far a finer model moves each zero, relative to |s|: what the formulation knows of its
+  /// error. Empty where no finer model is made.
+  std::vector<double> relative_change;
   std::vector<RejectedZero> rejected;  ///< ascending in |s|
   int infinite = 0;  ///< infinite roots of a discrete problem; 0 for the exact one
   RootCount count;

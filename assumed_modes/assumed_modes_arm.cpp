@@ -5,13 +5,11 @@
 #include "assumed_modes/damped_poles.hpp"
 #include "assumed_modes/forced_response.hpp"
 #include "assumed_modes/output_row.hpp"
-#include "assumed_modes/pencil_zeros.hpp"
-#include "assumed_modes/trusted_zeros.hpp"
+#include "assumed_modes/output_zeros.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -87,7 +85,9 @@ arm::ZeroSet AssumedModesArm::zeros(const arm::Sensor& sensor, int count) const 
   arm::require_count(count);
   const arm::Sensor at = arm::placed(sensor, arm_);
   arm::require_responsive(sensor, arm_);
-  return arm::is_collocated(sensor) ? hub_zeros(count) : output_zeros(at, count);
+  if (arm::is_collocated(sensor)) return hub_zeros(count);
+  return output_zeros(at, linear_, {options_.basis, options_.functions, options_.zero_change},
+                      kept(count, modes_.mass.size() - 1));
 }
 
 arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
@@ -103,25 +103,6 @@ arm::ZeroSet AssumedModesArm::hub_zeros(int count) const {
   result.infinite = 2;
   result.count.found = static_cast<int>(result.s_rad_per_s.size());
   result.summary = summary_of(pairs);
-  return result;
-}
-
-arm::ZeroSet AssumedModesArm::output_zeros(const arm::Sensor& sensor, int count) const {
-  const bool tip_is_held = sensor.kind == arm::SensorKind::tip_acceleration ||
-                           sensor.kind == arm::SensorKind::tip_displacement;
-  const ScaledArm beyond = beyond_drive(scaled_);
-  const auto with_more_functions = [&](int more) {
-    const AdmissibleFunctions functions(options_.basis, beyond, options_.functions, more);
-    return pencil_zeros(functions, beyond, output_row(sensor, linear_, functions).row, tip_is_held);
-  };
-  const std::array checks = {with_more_functions(2), with_more_functions(4)};
-  arm::ZeroSet result =
-      trusted_zeros(with_more_functions(0), checks, options_.zero_change,
-                    kept(count, modes_.mass.size() - 1), arm::omega_scale_rad_per_s(linear_));
-  result.summary.method = fmt::format(
-      "Rosenbrock pencil on {0} functions ({1}); residual: relative change with {2} and {3}",
-      options_.functions, to_string(options_.basis), options_.functions + 2,
-      options_.functions + 4);
   return result;
 }
 

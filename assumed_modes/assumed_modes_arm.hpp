@@ -103,7 +103,6 @@ class AssumedModesArm {
 
  private:
   arm::ZeroSet hub_zeros(int count) const;
-  arm::ZeroSet output_zeros(const arm::Sensor& sensor, int count) const;
   arm::SolveSummary summary_of(const RitzPairs& pairs) const;
   Real torsion_N_m() const;
 

@@ -6,7 +6,9 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 
 namespace flexarm::assumed_modes {
@@ -92,10 +94,9 @@ Reduced reduced_problem(const AdmissibleFunctions& functions, const ScaledArm& a
 
 }  // namespace
 
-PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& arm,
-                         const Vector& output, bool tip_is_held) {
-  const Reduced reduced =
-      reduced_problem(functions, arm, output, mass_rows(functions, arm, tip_is_held));
+namespace {
+
+PencilZeros solved(const Reduced& reduced) {
   const Eigen::EigenSolver<Matrix> solver(reduced.matrix, false);
   PencilZeros zeros;
   zeros.converged = solver.info() == Eigen::Success;
@@ -111,6 +112,56 @@ PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& 
   }
   zeros.infinite = static_cast<int>(order) + 2 - reduced.at_origin - finite;
   return zeros;
+}
+
+}  // namespace
+
+PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& arm,
+                         const Vector& output, bool tip_is_held) {
+  return solved(reduced_problem(functions, arm, output, mass_rows(functions, arm, tip_is_held)));
+}
+
+PencilZeros pencil_zeros(const DecayingPencil& pencil, Real shift) {
+  // Columns on the right null space of b.
+  const Eigen::HouseholderQR<Matrix> turn(pencil.output);
+  const auto beside_output = [&turn](Matrix rows) {
+    rows.applyOnTheRight(turn.householderQ());
+    return Matrix(rows.rightCols(rows.cols() - 1));
+  };
+  Matrix stiffness = beside_output(pencil.stiffness);
+  Matrix mass = beside_output(pencil.spread);
+
+  // In coordinates in which lump k has its first k + 1 entries only, the heaviest first, nothing
+  // that is spread drowns in what is lumped.
+  auto lumped = pencil.lumped;
+  for (DecayingLump& at : lumped) at.right = beside_output(at.right.transpose()).transpose();
+  const auto weight = [](const DecayingLump& at) {
+    return at.inertia * at.left.norm() * at.right.norm();
+  };
+  std::ranges::sort(lumped, std::ranges::greater(), weight);
+  if (!lumped.empty()) {
+    const Eigen::Index n = mass.rows();
+    const auto count = static_cast<Eigen::Index>(lumped.size());
+    Matrix left(n, count);
+    Matrix right(n, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      left.col(k) = lumped[static_cast<std::size_t>(k)].left;
+      right.col(k) = lumped[static_cast<std::size_t>(k)].right;
+    }
+    const Eigen::HouseholderQR<Matrix> rows(left);
+    const Eigen::HouseholderQR<Matrix> columns(right);
+    for (Matrix* matrix : {&stiffness, &mass}) {
+      matrix->applyOnTheLeft(rows.householderQ().adjoint());
+      matrix->applyOnTheRight(columns.householderQ());
+    }
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Eigen::Index filled = std::min(k + 1, n);
+      mass.topLeftCorner(filled, filled) += lumped[static_cast<std::size_t>(k)].inertia *
+                                            rows.matrixQR().col(k).head(filled) *
+                                            columns.matrixQR().col(k).head(filled).transpose();
+    }
+  }
+  return solved({Eigen::PartialPivLU<Matrix>(stiffness + shift * mass).solve(mass), shift});
 }
 
 }  // namespace flexarm::assumed_modes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "assumed_modes/admissible_functions.hpp"
+#include "assumed_modes/decaying_functions.hpp"
 #include "assumed_modes/real.hpp"
 #include "assumed_modes/scaled_arm.hpp"
 
@@ -39,5 +40,9 @@ struct PencilZeros {
 /// displacement would cancel.
 PencilZeros pencil_zeros(const AdmissibleFunctions& functions, const ScaledArm& arm,
                          const Vector& output, bool tip_is_held);
+
+/// The same of the pencil in functions that decay from the hub and test functions that grow.
+/// `shift` is sigma_0^2, at which the pencil is factorised.
+PencilZeros pencil_zeros(const DecayingPencil& pencil, Real shift);
 
 }  // namespace flexarm::assumed_modes

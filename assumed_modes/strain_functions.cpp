@@ -50,6 +50,7 @@ StrainFunctions::StrainFunctions(const ScaledArm& arm, StrainFunctionCount count
     }
   }
   Eigen::Index shearing = bending + polynomials;
+  first_of_shear_ = shearing;
   const Eigen::Index size = shearing + (arm.shear ? polynomials : 0);
   bends_ = Vector::Zero(size);
   bends_.segment(bending, polynomials).setOnes();

@@ -37,6 +37,16 @@ struct StrainFunctionCount {
 /// with N.
 class StrainFunctions {
  public:
+  /// Legendre series of every function on one piece.
+  struct Piece {
+    Real start = 0;
+    Real length = 0;
+    Matrix displacement;
+    Matrix slope;
+    Matrix rotation;
+    Matrix curvature;
+  };
+
   StrainFunctions(const ScaledArm& arm, StrainFunctionCount count);
 
   Eigen::Index size() const { return bends_.size(); }
@@ -61,16 +71,11 @@ class StrainFunctions {
   /// int p y_i' y_j' with p = arm.tension.
   Matrix slope_products(const ScaledArm& arm) const;
 
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Number of the first function of shear; `size()` on a beam that bends only.
+  Eigen::Index first_of_shear() const { return first_of_shear_; }
+
  private:
-  /// Legendre series of every function on one piece.
-  struct Piece {
-    Real start = 0;
-    Real length = 0;
-    Matrix displacement;
-    Matrix slope;
-    Matrix rotation;
-    Matrix curvature;
-  };
   const Piece& piece_at(Real xi) const;
 
   /// A mass on the beam: where, and which function is its suspension's, with what value.
@@ -84,6 +89,7 @@ class StrainFunctions {
   std::vector<Carried> carried_;
   Vector bends_;
   Vector hub_rotation_;
+  Eigen::Index first_of_shear_ = 0;
 };
 
 }  // namespace flexarm::assumed_modes

@@ -1,0 +1,104 @@
+#include "assumed_modes/output_zeros.hpp"
+
+#include "assumed_modes/admissible_functions.hpp"
+#include "assumed_modes/decaying_functions.hpp"
+#include "assumed_modes/output_row.hpp"
+#include "assumed_modes/pencil_zeros.hpp"
+#include "assumed_modes/scaled_arm.hpp"
+#include "assumed_modes/trusted_zeros.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace flexarm::assumed_modes {
+
+namespace {
+
+constexpr std::array kMoreFunctions = {2, 4};
+
+/// Mean rates of decay.
+constexpr Real kFirstRate = 6;
+constexpr Real kRateStep = 18;
+constexpr Real kLargestRate = 96;
+
+/// Between the first zeros of a beam's strain, and on none of them by accident.
+constexpr Real kShiftOfStrain = 37.3L;
+
+bool shows_tip(const arm::Sensor& sensor) {
+  return sensor.kind == arm::SensorKind::tip_acceleration ||
+         sensor.kind == arm::SensorKind::tip_displacement;
+}
+
+/// From this rate on functions are added, in proportion to those there are: 40 are resolved up to
+/// twice this rate.
+constexpr Real kResolvedRate = 24;
+
+int functions_at(Real mean_rate, int functions) {
+  constexpr int kEnough = 40;
+  const Real steeper = std::max(Real{0}, mean_rate - kResolvedRate);
+  return functions + static_cast<int>(std::ceil(steeper * std::min(functions, kEnough) / kEnough));
+}
+
+}  // namespace
+
+arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
+                          const OutputZeroOptions& options, int count) {
+  const ScaledArm beyond = beyond_drive(scaled(arm));
+  const bool may_decay =
+      options.basis == Basis::legendre && sensor.kind != arm::SensorKind::tip_deflection;
+  TrustedZeros zeros(options.zero_change);
+  bool converged = true;
+  const auto add = [&](const PencilZeros& found, const std::array<PencilZeros, 2>& checks) {
+    converged = converged && found.converged && checks[0].converged && checks[1].converged;
+    zeros.add(checked_roots(found, checks));
+  };
+  const auto without_decay = [&](int more) {
+    const AdmissibleFunctions functions(options.basis, beyond, options.functions, more);
+    return pencil_zeros(functions, beyond, output_row(sensor, arm, functions).row,
+                        shows_tip(sensor));
+  };
+  const std::optional<Real> strain_at =
+      shows_tip(sensor) ? std::nullopt : std::optional(sensor.position_m / Real{arm.length_m});
+  const auto decaying = [&](Real mean_rate, int more) {
+    const Decay decay = decay_of(beyond, mean_rate);
+    const StrainFunctions functions(
+        beyond, {.on_whole_beam = functions_at(mean_rate, options.functions) - 1, .more = more});
+    const Real shift =
+        mean_rate < kFirstRate ? strain_at ? kShiftOfStrain : 0 : decay.sigma_squared;
+    return pencil_zeros(decaying_pencil(functions, beyond, decay, strain_at), shift);
+  };
+  // Checks have other rates, so that their rounding is another.
+  const auto checks_of = [&](Real mean_rate) {
+    return std::array{decaying(mean_rate + 1, kMoreFunctions[0]),
+                      decaying(mean_rate + 2, kMoreFunctions[1])};
+  };
+
+  const PencilZeros slow = without_decay(0);
+  add(slow, may_decay
+                ? checks_of(0)
+                : std::array{without_decay(kMoreFunctions[0]), without_decay(kMoreFunctions[1])});
+  Real largest_rate = 0;
+  for (Real rate = kFirstRate; may_decay && rate <= kLargestRate && !zeros.are_settled(count);
+       rate += kRateStep) {
+    largest_rate = rate;
+    add(decaying(rate, 0), checks_of(rate));
+  }
+
+  arm::ZeroSet result = zeros.zero_set(count, arm::omega_scale_rad_per_s(arm));
+  result.infinite = slow.infinite;
+  result.summary.converged = converged;
+  result.summary.method = fmt::format(
+      "Rosenbrock pencil on {} functions ({}){}; residual: relative change with {} and {} more",
+      options.functions, to_string(options.basis),
+      largest_rate > 0 ? fmt::format(", and on functions that decay with mean rates up to {}",
+                                     static_cast<double>(largest_rate))
+                       : "",
+      kMoreFunctions[0], kMoreFunctions[1]);
+  return result;
+}
+
+}  // namespace flexarm::assumed_modes

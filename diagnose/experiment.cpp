@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/plausibility.hpp"
+#include "arm/rigid_hub.hpp"
 #include "compare/described_arm.hpp"
 #include "diagnose/long_runs.hpp"
 #include "diagnose/modal_orders.hpp"

@@ -41,6 +41,7 @@ Json findings_json(const std::vector<measured::DataFinding>& findings) {
                     {"channel", finding.channel},
                     {"first_sample", finding.first_sample},
                     {"time_s", finding.time_s},
+                    {"value", finding.value},
                     {"text", finding.text}});
   }
   return json;

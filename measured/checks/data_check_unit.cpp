@@ -22,6 +22,9 @@ constexpr double kLeastUnitCorrelation = 0.7;
 /// from them.
 constexpr double kNarrow = 0.03;
 constexpr std::size_t kFewestScaleBlocks = 3;
+/// Cosine of the phase that sign and delay leave: where they leave more, the arm is not as
+/// described.
+constexpr double kScaleAgreement = 0.98;
 /// log10 that noise may add where there are fewer.
 constexpr double kNoiseOfFewBlocks = 0.01;
 
@@ -38,7 +41,12 @@ struct Ratio {
 Ratio ratio_of(std::size_t a, std::size_t b, const GainFit& fit) {
   const double noise = 0.5 * std::abs(fit.log10_h2 - fit.log10_h1);
   const bool is_seen = fit.blocks >= kFewestScaleBlocks || noise <= kNoiseOfFewBlocks;
-  return {a, b, fit.log10_gain, false, is_seen && fit.spread <= kNarrow, noise};
+  return {a,
+          b,
+          fit.log10_gain,
+          false,
+          is_seen && fit.spread <= kNarrow && fit.agreement >= kScaleAgreement,
+          noise};
 }
 
 void add_identities(const Comparison& comparison, std::vector<Ratio>& ratios) {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <regex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +60,7 @@ std::vector<Option> options_of(const std::string& help) {
 class WrongValues : public Flexarm {};
 
 TEST_F(WrongValues, AnEmptyValueAndAWordForANumberAreRefusedByTheNameOfTheOption) {
-  std::size_t tried = 0;
+  std::set<std::pair<std::string, std::string>> tried;  // several commands share most options
   for (const auto& [words, rest] : commands()) {
     const auto options = options_of(run({words.front(), "--help"}).output);
     EXPECT_FALSE(options.empty()) << words.front();
@@ -68,6 +68,7 @@ TEST_F(WrongValues, AnEmptyValueAndAWordForANumberAreRefusedByTheNameOfTheOption
       const bool is_number = option.value == "N" || option.value == "NUMBER";
       for (const char* value : {"", "wrong"}) {
         if (*value != '\0' && !is_number) continue;
+        if (!tried.insert({option.name, value}).second) continue;
         Words call = words;
         call.insert(call.end(), rest.begin(), rest.end());
         call.insert(call.end(), {option.name, value});
@@ -76,11 +77,10 @@ TEST_F(WrongValues, AnEmptyValueAndAWordForANumberAreRefusedByTheNameOfTheOption
         EXPECT_EQ(ended.status, 2);
         EXPECT_EQ(std::ranges::count(ended.errors, '\n'), 1) << ended.errors;
         EXPECT_THAT(ended.errors, HasSubstr(option.name));
-        ++tried;
       }
     }
   }
-  EXPECT_GT(tried, 200U);
+  EXPECT_GT(tried.size(), 90U);
 }
 
 /// A command line and how its one line of error begins: file and line or option, key, value, unit.

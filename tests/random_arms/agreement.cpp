@@ -32,7 +32,9 @@ void add_findings(const compare::FeatureFamily& family, std::size_t number,
             {fmt::format("{} {}", label(family), i + 1), answers[a].formulation,
              answers[b].formulation,
              matched[i] ? compare::relative_distance(*matched[i], first[i]) : compare::kMissing,
-             kRootTolerance});
+             kRootTolerance,
+             std::max(compare::stated_error(answers[a].roots[number], family, first[i]),
+                      compare::stated_error(answers[b].roots[number], family, matched[i]))});
       }
     }
   }

@@ -69,10 +69,6 @@ void require_moderate_drive(const Drive& drive, const LinearArm& arm) {
 /// with it the part about its own centre; mode by mode a beam of this inertia magnifies that.
 constexpr double kLargestOffsetInertiaRatio = 100.0;
 
-/// Air damping relative to m sqrt(EI/(m l^4)): beyond, the wave number of the tenth pole's
-/// frequency is 1e4 and more.
-constexpr double kLargestAirDampingRatio = 1e12;
-
 /// Sizes of effects in units of the beam's own, within which every formulation keeps nine digits.
 void require_moderate_effects(const LinearArm& arm) {
   const double l = arm.length_m;
@@ -92,9 +88,6 @@ void require_moderate_effects(const LinearArm& arm) {
          l * std::sqrt(beam_kg / arm.payload_mass_kg), "l sqrt(m l/payload.mass)"},
         std::sqrt(kLargestOffsetInertiaRatio));
   }
-  require_at_most({"effects.air_damping.coefficient", arm.air_damping_N_s_per_m2, "N s/m^2",
-                   arm.linear_density_kg_per_m * omega_scale_rad_per_s(arm), "m sqrt(EI/(m l^4))"},
-                  kLargestAirDampingRatio);
   require_at_most(spring("effects.hub_spring.stiffness", arm.hub_spring_N_m_per_rad),
                   kLargestSpringRatio);
   if (arm.root_stiffness_N_m_per_rad) {

@@ -65,6 +65,10 @@ void require_moderate_drive(const Drive& drive, const LinearArm& arm) {
   }
 }
 
+/// Mp offset^2 relative to m l^3. The payload's inertia about the tip is rounded as a double, and
+/// with it the part about its own centre; mode by mode a beam of this inertia magnifies that.
+constexpr double kLargestOffsetInertiaRatio = 100.0;
+
 /// Sizes of effects in units of the beam's own, within which every formulation keeps nine digits.
 void require_moderate_effects(const LinearArm& arm) {
   const double l = arm.length_m;
@@ -78,6 +82,11 @@ void require_moderate_effects(const LinearArm& arm) {
     require_at_most({"effects.payload_offset.offset",
                      arm.payload_first_moment_kg_m / arm.payload_mass_kg, "m", l, "the length"},
                     kLargestLengthRatio);
+    const double beam_kg = arm.linear_density_kg_per_m * l;
+    require_at_most(
+        {"effects.payload_offset.offset", arm.payload_first_moment_kg_m / arm.payload_mass_kg, "m",
+         l * std::sqrt(beam_kg / arm.payload_mass_kg), "l sqrt(m l/payload.mass)"},
+        std::sqrt(kLargestOffsetInertiaRatio));
   }
   require_at_most(spring("effects.hub_spring.stiffness", arm.hub_spring_N_m_per_rad),
                   kLargestSpringRatio);

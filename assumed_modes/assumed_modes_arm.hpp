@@ -25,8 +25,9 @@ struct AssumedModesOptions {
   /// 2 <= n <= kMaximumFunctions. Effects add their own with `legendre`: a soft drive or root, a
   /// crack and a suspended mass one, crack and masses up to 15 for each further piece of the beam,
   /// and shear as many as bending has (StrainFunctions). With Legendre functions 36 give ten poles
-  /// and ten hub zeros to rounding and six tip zeros to 1e-9 for payloads of up to 10 m l and 0.1 m
-  /// l^3 and hubs of up to 100 m l^3; 28 give 1e-10 on the paper's arm.
+  /// and ten hub zeros to rounding, and ten tip zeros to 1e-12, for payloads of up to 10 m l and
+  /// 0.1 m l^3 and hubs of up to 100 m l^3. Models of 28 or more are given further ones for high
+  /// zeros of a sensor away from the hub (assumed_modes/output_zeros.hpp).
   int functions = 36;
 
   /// A zero s of a sensor away from the hub is trusted when the nearest zeros s' with 2 and
@@ -61,9 +62,8 @@ inline constexpr int kMaximumFunctions = 200;
 /// when another does, which means that its flexible modes buckle. Its hub zeros may be real.
 ///
 /// Real zeros of the tip are exponentially ill-conditioned in coordinates that span the link, since
-/// the motion at a zero dies out from one end of it to the other: each keeps some 1.5 digits fewer
-/// than the one before, about 1e-13 the fourth, 1e-10 the sixth, 1e-4 the tenth. The summary's
-/// residual shows it.
+/// the motion at a zero dies out from one end of it to the other. They are computed in functions
+/// that decay likewise (assumed_modes/output_zeros.hpp).
 ///
 /// [Meirovitch1967], ch. 6.
 class AssumedModesArm {

@@ -33,15 +33,15 @@ bool shows_tip(const arm::Sensor& sensor) {
          sensor.kind == arm::SensorKind::tip_displacement;
 }
 
-/// From this rate on functions are added, in proportion to those there are: 40 are resolved up to
-/// twice this rate.
-constexpr Real kResolvedRate = 24;
-
-int functions_at(Real mean_rate, int functions) {
-  constexpr int kEnough = 40;
-  const Real steeper = std::max(Real{0}, mean_rate - kResolvedRate);
-  return functions + static_cast<int>(std::ceil(steeper * std::min(functions, kEnough) / kEnough));
+/// Solutions times exp(r xi) are as steep as exp(2 r xi): functions that resolve them.
+int needed_functions(Real mean_rate) {
+  constexpr int kWithoutDecay = 16;
+  return kWithoutDecay + static_cast<int>(std::ceil(mean_rate));
 }
+
+/// A model with this many functions or more is given those that a rate needs. A coarser one stays
+/// as it is, and goes without the rates that it does not resolve.
+constexpr int kFine = 28;
 
 }  // namespace
 
@@ -66,7 +66,8 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
   const auto decaying = [&](Real mean_rate, int more) {
     const Decay decay = decay_of(beyond, mean_rate);
     const StrainFunctions functions(
-        beyond, {.on_whole_beam = functions_at(mean_rate, options.functions) - 1, .more = more});
+        beyond, {.on_whole_beam = std::max(options.functions, needed_functions(mean_rate)) - 1,
+                 .more = more});
     const Real shift =
         mean_rate < kFirstRate ? strain_at ? kShiftOfStrain : 0 : decay.sigma_squared;
     return pencil_zeros(decaying_pencil(functions, beyond, decay, strain_at), shift);
@@ -81,8 +82,11 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
   add(slow, may_decay
                 ? checks_of(0)
                 : std::array{without_decay(kMoreFunctions[0]), without_decay(kMoreFunctions[1])});
+  const Real resolved = options.functions - needed_functions(0);
+  const Real largest_allowed =
+      options.functions >= kFine ? kLargestRate : std::min(kLargestRate, resolved);
   Real largest_rate = 0;
-  for (Real rate = kFirstRate; may_decay && rate <= kLargestRate && !zeros.are_settled(count);
+  for (Real rate = kFirstRate; may_decay && rate <= largest_allowed && !zeros.are_settled(count);
        rate += kRateStep) {
     largest_rate = rate;
     add(decaying(rate, 0), checks_of(rate));

@@ -91,7 +91,9 @@ void add_roots(const std::vector<Subject>& subjects, const FeatureFamily& family
         comparison.findings.push_back(
             {fmt::format("{} {}", label(family), i + 1), subjects[a].name, subjects[b].name,
              both ? relative_distance(*matched[b][i], *matched[a][i]) : kMissing,
-             options.root_tolerance});
+             options.root_tolerance,
+             std::max(stated_error(found[a], family, matched[a][i]),
+                      stated_error(found[b], family, matched[b][i]))});
       }
     }
     comparison.roots.push_back(std::move(row));

@@ -26,9 +26,7 @@ struct Subject {
 
 struct Options {
   int poles = 10;  ///< poles, collocated zeros and modes compared, 1 or more
-  /// Zeros of each non-collocated sensor compared, 1 or more. Beyond about ten the tip zeros sink
-  /// below the rounding of a Ritz model: the tip's response to torque at real s falls as
-  /// exp(-lambda/sqrt 2).
+  /// Zeros of each non-collocated sensor compared, 1 or more.
   int non_collocated_zeros = 6;
   /// Sensors whose zeros and responses are compared.
   std::vector<arm::Sensor> sensors = {{arm::SensorKind::hub_angle, 0.0},

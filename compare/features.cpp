@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace flexarm::compare {
@@ -16,6 +17,7 @@ FeatureRoots roots(const response::AnyFormulation& formulation, const FeatureFam
   if (family.zeros_of) {
     arm::ZeroSet zeros = response::zeros(formulation, *family.zeros_of, family.count);
     found.s_rad_per_s = std::move(zeros.s_rad_per_s);
+    found.relative_change = std::move(zeros.relative_change);
     found.rejected = std::move(zeros.rejected);
     found.infinite = zeros.infinite;
     found.count = std::move(zeros.count);
@@ -25,6 +27,24 @@ FeatureRoots roots(const response::AnyFormulation& formulation, const FeatureFam
     found.count = std::move(poles.count);
   }
   return found;
+}
+
+double stated_error(const FeatureRoots& found, const FeatureFamily& family,
+                    const std::optional<std::complex<double>>& root) {
+  constexpr double kOfChange = 10.0;
+  if (!root) {
+    const int count = static_cast<int>(found.s_rad_per_s.size());
+    const bool is_short = count < family.count ||
+                          (found.count.expected >= 0 && found.count.found != found.count.expected);
+    const bool has_gap =
+        std::ranges::any_of(found.rejected, [&](const arm::RejectedZero& rejected) {
+          return std::abs(rejected.s_rad_per_s) < std::abs(found.s_rad_per_s.back());
+        });
+    return is_short || has_gap ? std::numeric_limits<double>::infinity() : 0.0;
+  }
+  const auto place = std::ranges::find(found.s_rad_per_s, *root) - found.s_rad_per_s.begin();
+  if (place >= std::ssize(found.relative_change)) return 0.0;
+  return kOfChange * found.relative_change[static_cast<std::size_t>(place)];
 }
 
 double relative_distance(std::complex<double> s, std::complex<double> reference) {

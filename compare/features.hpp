@@ -26,11 +26,19 @@ std::string label(const FeatureFamily& family);
 /// arm::ZeroSet.
 struct FeatureRoots {
   std::vector<std::complex<double>> s_rad_per_s;
+  std::vector<double> relative_change;  ///< as in arm::ZeroSet
   std::vector<arm::RejectedZero> rejected;
   int infinite = 0;
   arm::RootCount count;
 };
 FeatureRoots roots(const response::AnyFormulation& formulation, const FeatureFamily& family);
+
+/// What the formulation itself says of the error of a root of `found`, relative: ten times what a
+/// finer model changes; 0 where it says nothing. For a root that it lacks infinity where it says
+/// that one may be missing: fewer roots than asked for, another number than it counted, or a
+/// rejected root among those found.
+double stated_error(const FeatureRoots& found, const FeatureFamily& family,
+                    const std::optional<std::complex<double>>& root);
 
 /// For each reference root the root of `found` that stands for it, or empty: by order where roots
 /// are ordered by the theory (poles, zeros of a collocated sensor: Rayleigh-Ritz bounds), else

@@ -17,6 +17,9 @@ struct Finding {
   std::string second;      ///< formulation
   double distance = 0.0;   ///< relative; NaN when one of the two has no value
   double tolerance = 0.0;  ///< they agree when distance <= tolerance
+  /// The larger of the errors that the two state of themselves, relative; 0 where neither does,
+  /// infinite where one says that a root may be missing.
+  double stated = 0.0;
 };
 
 /// Agree, or not and where it is worst.

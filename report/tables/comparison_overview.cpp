@@ -177,7 +177,8 @@ Table disagreements_table(const compare::Comparison& comparison) {
               {{"quantity"},
                {"models"},
                error_column("relative difference"),
-               {"tolerance", "", 1, Notation::scientific}}};
+               {"tolerance", "", 1, Notation::scientific},
+               error_column("stated error")}};
   std::vector<const compare::Finding*> beyond;
   for (const auto& finding : comparison.findings) {
     if (!(finding.distance <= finding.tolerance)) beyond.push_back(&finding);
@@ -185,9 +186,10 @@ Table disagreements_table(const compare::Comparison& comparison) {
   std::ranges::stable_sort(beyond, std::ranges::greater{},
                            [](const compare::Finding* finding) { return excess_of(*finding); });
   for (const auto* finding : beyond) {
-    table.add_row({finding->quantity, fmt::format("{}, {}", finding->first, finding->second),
-                   std::isnan(finding->distance) ? Cell() : Cell(finding->distance),
-                   finding->tolerance});
+    table.add_row(
+        {finding->quantity, fmt::format("{}, {}", finding->first, finding->second),
+         std::isnan(finding->distance) ? Cell() : Cell(finding->distance), finding->tolerance,
+         finding->stated > 0.0 && std::isfinite(finding->stated) ? Cell(finding->stated) : Cell()});
   }
   return table;
 }

@@ -242,7 +242,9 @@ std::string verdict_line(const compare::Comparison& comparison) {
   const auto& worst = comparison.verdict.worst;
   const std::string where =
       std::isnan(worst.distance)
-          ? fmt::format("{}: missing in {} or {}", worst.quantity, worst.first, worst.second)
+          ? fmt::format("{}: missing in {}", worst.quantity,
+                        comparison.verdict.alone.empty() ? worst.first + " or " + worst.second
+                                                         : comparison.verdict.alone)
           : fmt::format("{}: relative difference of {} and {} {:.1e}, tolerance {:.0e}",
                         worst.quantity, worst.first, worst.second, worst.distance, worst.tolerance);
   std::string line = fmt::format("Verdict: {}. Largest difference relative to its tolerance: {}.",
@@ -252,6 +254,11 @@ std::string verdict_line(const compare::Comparison& comparison) {
     auto others = comparison.subjects;
     std::erase(others, alone);
     line += fmt::format(" {} alone differs: {} agree.", alone, fmt::join(others, " and "));
+  }
+  if (!comparison.verdict.agree && worst.stated > 0.0) {
+    line += std::isinf(worst.stated)
+                ? " One of the formulations states that it may lack a root."
+                : fmt::format(" One of the two states an error of up to {:.1e}.", worst.stated);
   }
   return line;
 }

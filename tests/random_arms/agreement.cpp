@@ -3,15 +3,18 @@
 #include "arm/input_error.hpp"
 #include "compare/comparison.hpp"
 #include "compare/features.hpp"
-#include "compare/standard_models.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 
 namespace flexarm::random_arms {
 
 namespace {
+
+constexpr int kPoles = 10;
 
 struct Answer {
   std::string formulation;
@@ -29,7 +32,9 @@ void add_findings(const compare::FeatureFamily& family, std::size_t number,
             {fmt::format("{} {}", label(family), i + 1), answers[a].formulation,
              answers[b].formulation,
              matched[i] ? compare::relative_distance(*matched[i], first[i]) : compare::kMissing,
-             kRootTolerance});
+             kRootTolerance,
+             std::max(compare::stated_error(answers[a].roots[number], family, first[i]),
+                      compare::stated_error(answers[b].roots[number], family, matched[i]))});
       }
     }
   }
@@ -38,12 +43,17 @@ void add_findings(const compare::FeatureFamily& family, std::size_t number,
 }  // namespace
 
 Agreement agreement_of(const arm::Arm& arm) {
+  return agreement_of(arm, compare::standard_models(kPoles));
+}
+
+Agreement agreement_of(const arm::Arm& arm, const std::vector<compare::Model>& models) {
   compare::Options options;
+  options.poles = kPoles;
   options.sensors = {{arm::SensorKind::hub_angle, 0.0}, {arm::SensorKind::tip_acceleration, 0.0}};
   const auto families = compare::families(options);
   Agreement agreement;
   std::vector<Answer> answers;
-  for (const compare::Model& model : compare::standard_models(options.poles)) {
+  for (const compare::Model& model : models) {
     Answer answer{model.name, {}};
     try {
       const auto formulation = model.make(arm);
@@ -64,7 +74,12 @@ Agreement agreement_of(const arm::Arm& arm) {
   const compare::Verdict verdict = compare::judge(findings);
   agreement.worst = verdict.worst;
   agreement.alone = verdict.alone;
-  if (!verdict.agree && agreement.outcome != Outcome::failed) agreement.outcome = Outcome::disagree;
+  if (verdict.agree || agreement.outcome == Outcome::failed) return agreement;
+  const bool is_silent = std::ranges::any_of(findings, [](const compare::Finding& finding) {
+    const bool agrees = finding.distance <= kRootTolerance || finding.distance <= finding.stated;
+    return !agrees && !std::isinf(finding.stated);
+  });
+  agreement.outcome = is_silent ? Outcome::disagree : Outcome::stated;
   return agreement;
 }
 

@@ -87,7 +87,8 @@ void print_worst(const std::vector<Agreement>& all, const RunOptions& options) {
     const Agreement& each = all[order[k]];
     if (!each.worst) break;
     const std::uint64_t index = options.first + order[k];
-    fmt::print("arm {}: {} of {} and {}, {:.1e}{}\n", index, each.worst->quantity,
+    fmt::print("arm {}{}: {} of {} and {}, {:.1e}{}\n", index,
+               each.outcome == Outcome::stated ? " (stated)" : "", each.worst->quantity,
                each.worst->first, each.worst->second, each.worst->distance,
                each.alone.empty() ? "" : "; alone: " + each.alone);
     if (options.out.empty()) continue;

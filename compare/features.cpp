@@ -37,7 +37,7 @@ double stated_error(const FeatureRoots& found, const FeatureFamily& family,
     const bool is_short = count < family.count ||
                           (found.count.expected >= 0 && found.count.found != found.count.expected);
     const bool has_gap =
-        std::ranges::any_of(found.rejected, [&](const arm::RejectedZero& rejected) {
+        count > 0 && std::ranges::any_of(found.rejected, [&](const arm::RejectedZero& rejected) {
           return std::abs(rejected.s_rad_per_s) < std::abs(found.s_rad_per_s.back());
         });
     return is_short || has_gap ? std::numeric_limits<double>::infinity() : 0.0;

@@ -50,7 +50,7 @@ class Roots(unittest.TestCase):
         model = flexarm.FiniteElements(flexarm.Arm.paper(), elements=3, degree=5)
         self.assertEqual(model.settings, "3 elements of degree 5")
         self.assertEqual(model.degrees_of_freedom, 1 + 3 * 4)
-        with self.assertRaisesRegex(flexarm.InputError, "roots = 1000"):
+        with self.assertRaisesRegex(flexarm.InputError, "needs 1000 roots"):
             flexarm.FiniteElements(flexarm.Arm.paper(), roots=1000)
         with self.assertRaises(flexarm.InputError):
             flexarm.AssumedModes(flexarm.Arm.paper(), basis="fourier")

@@ -155,49 +155,71 @@ Hum remove_hum(std::vector<CheckedSignal>& signals, const std::vector<bool>& usa
   return hum;
 }
 
+std::vector<double> floor_powers(const Transforms& transforms) {
+  std::vector<double> powers;
+  for (const auto& transform : transforms.of) powers.push_back(transform.floor_power);
+  return powers;
+}
+
+/// What the signals, without spikes, say of each other. A fault takes its channel out of what is
+/// asked next.
+std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
+                                         std::vector<bool> usable, const std::vector<bool>& active,
+                                         const Transforms& transforms,
+                                         const DataCheckOptions& options) {
+  const double period_s = transforms.period_s;
+  const DescribedStretch described(signals, transforms, options.described);
+  std::vector<DataFinding> findings;
+  const auto note = [&](const std::vector<DataFinding>& found) {
+    append(findings, found);
+    exclude(usable, signals, found);
+  };
+  const auto comparison = [&] {
+    return Comparison{signals, transforms, usable, options, described.relations};
+  };
+  note(check_trends(signals, usable, options));
+  if (transforms.from_rest) note(check_answers(signals, usable, active, period_s, options));
+  note(check_signs(comparison()));
+  note(check_units(comparison()));
+  note(check_delay(comparison()));
+  if (transforms.from_rest) {
+    if (!described.values.empty()) note(check_torque_offset(comparison(), options.described));
+    note(check_offsets(comparison(), described.values));
+  }
+  note(check_angle_drift(signals, usable, floor_powers(transforms), period_s, options));
+  return findings;
+}
+
 /// What channels say of each other over an even stretch; none of `usable` has a fault in its
 /// values. A fault takes its channel out of what is asked next. A stretch that does not begin at
 /// rest may hold an arm at rest, which answers nothing.
-std::vector<DataFinding> compare(std::span<const CheckedSignal> signals, std::vector<bool> usable,
-                                 const std::vector<bool>& active, const ClockCheck& clock,
-                                 bool from_rest, const DataCheckOptions& options) {
+std::vector<DataFinding> compare(std::span<const CheckedSignal> signals,
+                                 const std::vector<bool>& usable, const std::vector<bool>& active,
+                                 const ClockCheck& clock, bool from_rest,
+                                 const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
   const auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
   append(findings, rate);
   const double period_s = clock.period_s / (rate.empty() ? 1.0 : rate.front().value);
   const Transforms transforms = transform(signals, period_s, from_rest);
-  const DescribedStretch described(signals, transforms, options.described);
-  std::vector<double> floor_power;
-  for (const auto& transform : transforms.of) floor_power.push_back(transform.floor_power);
-  const auto note = [&](const std::vector<DataFinding>& found) {
-    append(findings, found);
-    exclude(usable, signals, found);
-    return !found.empty();
-  };
-  const auto comparison = [&] {
-    return Comparison{signals, transforms, usable, options, described.relations};
-  };
-
-  const auto coarse = check_quantisation(signals, floor_power, options);
+  const Comparison raw{signals, transforms, usable, options};
+  const auto coarse = check_quantisation(signals, floor_powers(transforms), options);
   append(findings, coarse);
   // An exchange leaves no relation of either column to judge.
-  if (note(check_swaps(comparison()))) return findings;
+  const auto swaps = check_swaps(raw);
+  append(findings, swaps);
+  if (!swaps.empty()) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
   const auto spikes = check_all_spikes(signals, fine, options, clock.findings.empty());
-  note(spikes);
+  append(findings, spikes);
   const Repaired repaired(signals, spikes);
   append(findings, check_sampling_jitter(repaired.signals(), fine, period_s));
-  note(check_trends(signals, usable, options));
-  if (from_rest) note(check_answers(signals, usable, active, period_s, options));
-  note(check_signs(comparison()));
-  note(check_units(comparison()));
-  note(check_delay(comparison()));
-  if (from_rest) {
-    if (!described.values.empty()) note(check_torque_offset(comparison(), options.described));
-    note(check_offsets(comparison(), described.values));
-  }
-  note(check_angle_drift(signals, usable, floor_power, period_s, options));
+  const bool as_recorded = spikes.empty();
+  append(findings, check_relations(repaired.signals(), usable, active,
+                                   as_recorded ? transforms
+                                               : transform(repaired.signals(), period_s, from_rest),
+                                   options));
   return findings;
 }
 

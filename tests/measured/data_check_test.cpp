@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFiles = 50;
-/// Files of a kind in which something beside the planted fault may be found: the rates measured
-/// over 500 files (docs/measured-data.md) are below 1 in 50 for most kinds.
-constexpr int kMostFurther = 3;
+/// Files of a kind in which something beside the planted fault may be found. Over many files
+/// (docs/measured-data.md) they are 0 to 7 %, below 2 % for most kinds.
+constexpr int kMostFurther = 4;
 constexpr int kFewFiles = 25;
-/// Of the kinds that are found in 96 to 99 % of many files (docs/measured-data.md).
+/// 95 % of the files of a kind must be found; rates over many are in docs/measured-data.md.
 constexpr int kMostMissed = 2;
 
 /// Seeds of the files of a kind; those of the clean ones are below kSeedStep.
@@ -94,7 +94,7 @@ TEST_P(PlantedFaults, AreFound) {
     }
     if (outcome.further > 0) ++with_further;
   }
-  EXPECT_LE(missed, is_subtle || fault == Fault::spikes ? kMostMissed : 0) << text;
+  EXPECT_LE(missed, kMostMissed) << text;
   RecordProperty("files_with_further_findings", with_further);
   EXPECT_LE(with_further, kMostFurther);
 }

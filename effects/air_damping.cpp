@@ -21,7 +21,8 @@ void require_waves(const arm::Effect& effect, const arm::Arm& arm) {
       std::sqrt(arm.beam.flexural_rigidity_N_m2() * arm.beam.linear_density_kg_per_m()) /
       (length_m * length_m);
   const double coefficient = effect.value("coefficient");
-  if (coefficient <= kLargestAirDampingRatio * natural) return;
+  // Not a number where the beam's own numbers overflow.
+  if (!(coefficient > kLargestAirDampingRatio * natural)) return;
   throw arm::out_of_range("effects.air_damping.coefficient", coefficient, "N s/m^2",
                           fmt::format("{:.6g} or less, {:g} times m sqrt(EI/(m l^4))",
                                       kLargestAirDampingRatio * natural, kLargestAirDampingRatio));

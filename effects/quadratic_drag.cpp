@@ -20,7 +20,7 @@ void require_resolved(const arm::Effect& effect, const arm::Arm& arm) {
   if (!arm::has_beam(arm)) return;
   const double largest = kLargestDragRatio * arm.beam.linear_density_kg_per_m() / arm.beam.length_m;
   const double coefficient = effect.value("coefficient");
-  if (coefficient <= largest) return;
+  if (!(coefficient > largest)) return;
   throw arm::out_of_range(
       "effects.quadratic_drag.coefficient", coefficient, "N s^2/m^3",
       fmt::format("{:.6g} or less, {:g} times the beam's linear density over its length", largest,

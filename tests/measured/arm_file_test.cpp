@@ -224,11 +224,8 @@ class ArmGenerator {
       if (parameter.name == "rotor_share") value = 0.25;
       if (definition->name == "beam_length") value = 0.75;  // a crack stays on the beam
       if (definition->name == "gauge_position") value = beam.length_m * 0.25;
-      if (definition->name == "air_damping") {  // at most 1e12 of it
-        const double scale = std::sqrt(beam.flexural_rigidity_N_m2()) / beam.length_m *
-                             (std::sqrt(beam.linear_density_kg_per_m()) / beam.length_m);
-        value = std::isfinite(scale) ? scale : 0.0;
-      }
+      // Bounded by numbers of the beam that other effects change.
+      if (definition->name == "air_damping" || definition->name == "quadratic_drag") value = 0.0;
       if (definition->name == "stribeck_friction" && parameter.name == "static_torque") {
         value = std::max(value, effect.parameters.at("torque"));
       }

@@ -5,10 +5,12 @@
 #include "measured/spectra/robust.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace flexarm::measured {
 
@@ -22,16 +24,22 @@ constexpr Index kShakenFor = 24;  // samples after a jump of the torque
 constexpr double kJumpOfTorque = 0.5;
 constexpr double kUnusualJump = 8.0;
 constexpr Index kJumpSide = 12;
-constexpr double kMostResidual = 4.0;  // robust deviations; larger ones are taken for this
-constexpr double kMostSquare = 12.0;   // as u
+constexpr double kMostResidual = 4.0;  // robust deviations; as this in their covariance
+constexpr double kMostSquare = 12.0;   // u over its expected value; larger ones are taken for this
 constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
 constexpr int kJitterReweightings = 8;
 constexpr Index kTimeBlocks = 12;
 constexpr double kLeastEvidenceInBlocks = 2.0;  // standard errors
 constexpr double kLeastShareInBlocks = 0.5;     // of the rms of the whole
-constexpr double kLeastEvidence = 5.0;          // standard errors
+constexpr double kLeastEvidence = 4.0;          // standard errors
+constexpr double kAcross = 1.5;  // by which what grows across the derivatives counts
 constexpr double kLeastRms_periods = 0.045;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
+constexpr double kLeastRmsAlone_periods = 0.12;  // of one channel
+constexpr Index kGroups = 12;
+constexpr double kLeastTypical = 0.45;  // of the rms by least squares
+constexpr double kLeastTypicalAlone = 0.6;
+constexpr double kMedianOfChiSquare = 0.455;  // one degree of freedom
 
 /// Samples that no jump of the torque shakes, over [kJitterReach, samples - kJitterReach).
 std::vector<Index> calm_rows(const Eigen::VectorXd& torque, bool torque_is_known) {
@@ -98,7 +106,7 @@ Eigen::ArrayXd less_block_means(const Eigen::ArrayXd& values, const Eigen::Array
 }
 
 /// u = level + slope g with a level for each block of time, by least squares with weights
-/// 1/(1 + slope g)^2.
+/// 1/(1 + slope g)^2. A u above kMostSquare times 1 + slope g is taken for this.
 struct Growth {
   double slope = 0.0;
   double error = 0.0;
@@ -106,12 +114,48 @@ struct Growth {
   double rms() const { return std::sqrt(std::max(0.0, slope)); }
 };
 
+/// The slope that the largest quarter of g asks for, if u/(1 + slope g) is chi square of one degree
+/// of freedom: where the least squares begin.
+double first_slope(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g) {
+  const double large = quantile({g.begin(), g.end()}, 0.75);
+  std::vector<double> ratios;
+  for (Index k = 0; k < g.size(); ++k) {
+    if (g[k] > large) ratios.push_back(u[k] / g[k]);
+  }
+  return ratios.empty() ? 0.0 : median(std::move(ratios)) / kMedianOfChiSquare;
+}
+
+/// The rms that medians of u show over groups of like g: what a few samples do, as those where
+/// friction holds the hub, has no influence.
+double typical_rms(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g) {
+  std::vector<Index> order(static_cast<std::size_t>(g.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Index k) { return g[k]; });
+  Eigen::Matrix<double, kGroups, 2> levels;
+  for (Index i = 0; i < kGroups; ++i) {
+    std::vector<double> here;
+    std::vector<double> at;
+    for (Index k = i * g.size() / kGroups; k < (i + 1) * g.size() / kGroups; ++k) {
+      here.push_back(u[order[static_cast<std::size_t>(k)]]);
+      at.push_back(g[order[static_cast<std::size_t>(k)]]);
+    }
+    // Errors of a median are in proportion to it.
+    const double level = std::max(1e-300, median(std::move(here)) / kMedianOfChiSquare);
+    levels.row(i) << 1.0 / level, median(std::move(at)) / level;
+  }
+  const Eigen::Vector2d fit =
+      levels.colPivHouseholderQr().solve(Eigen::Vector<double, kGroups>::Ones());
+  return std::sqrt(std::max(0.0, fit[1]));
+}
+
 Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g, Index blocks) {
   Growth growth;
+  growth.slope = first_slope(u, g);
   for (int i = 0; i < kJitterReweightings; ++i) {
-    const Eigen::ArrayXd weight = (1.0 + std::max(0.0, growth.slope) * g).square().inverse();
+    const Eigen::ArrayXd expected = 1.0 + std::max(0.0, growth.slope) * g;
+    const Eigen::ArrayXd weight = expected.square().inverse();
     const Eigen::ArrayXd across = less_block_means(g, weight, blocks);
-    const Eigen::ArrayXd up = less_block_means(u, weight, blocks);
+    const Eigen::ArrayXd up = less_block_means(u.min(kMostSquare * expected), weight, blocks);
     const double power = (weight * across.square()).sum();
     growth.slope = (weight * across * up).sum() / power;
     growth.error = (weight * across * (up - growth.slope * across)).matrix().norm() / power;
@@ -137,24 +181,37 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
     const Eigen::VectorXd left = residual_of(values, i, usable)(rows);
     const double scale = robust_deviation({left.data(), static_cast<std::size_t>(left.size())});
     if (scale <= 0.0) return {};
-    residuals.row(row) = (left / scale).cwiseMin(kMostResidual).cwiseMax(-kMostResidual);
+    residuals.row(row) = left / scale;
     derivatives.row(row) = derivative_of(values[i])(rows) / scale;
     ++row;
   }
-  Eigen::MatrixXd covariance = residuals * residuals.transpose() / static_cast<double>(rows.size());
+  const Eigen::MatrixXd usual = residuals.cwiseMin(kMostResidual).cwiseMax(-kMostResidual);
+  Eigen::MatrixXd covariance = usual * usual.transpose() / static_cast<double>(rows.size());
   covariance.diagonal().array() += kSingular * covariance.trace() / static_cast<double>(channels);
   const Eigen::MatrixXd seen = covariance.inverse() * derivatives;
   const Eigen::ArrayXd g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
   const Eigen::ArrayXd along = seen.cwiseProduct(residuals).colwise().sum().transpose();
-  const Eigen::ArrayXd u = (along.square() / g.max(1e-300)).min(kMostSquare);
+  const Eigen::ArrayXd u = along.square() / g.max(1e-300);
   const Growth growth = growth_of(u, g, 1);
+  // Of jitter nothing grows across the derivatives, of an arm that the regression misses all does.
+  double beside = 0.0;
+  if (channels > 1) {
+    const Eigen::MatrixXd whitened = covariance.inverse() * residuals;
+    const Eigen::ArrayXd all = whitened.cwiseProduct(residuals).colwise().sum().transpose();
+    beside = growth_of((all - u) / static_cast<double>(channels - 1), g, 1).slope;
+  }
   const double rms = growth.rms();
-  const double least =
-      has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
-  if (!(growth.slope > kLeastEvidence * growth.error) || rms <= least) return {};
+  if (growth.slope - kAcross * std::max(0.0, beside) <= kLeastEvidence * growth.error) return {};
+  const bool is_alone = channels == 1;
+  const double least = std::max(
+      has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods,
+      is_alone ? kLeastRmsAlone_periods : 0.0);
+  if (rms <= least || typical_rms(u, g) < (is_alone ? kLeastTypicalAlone : kLeastTypical) * rms) {
+    return {};
+  }
   // Noise may change with the motion over the record, as under a chirp.
   const Growth within = growth_of(u, g, kTimeBlocks);
-  if (!(within.slope > kLeastEvidenceInBlocks * within.error) ||
+  if (within.slope <= kLeastEvidenceInBlocks * within.error ||
       within.rms() < kLeastShareInBlocks * rms) {
     return {};
   }

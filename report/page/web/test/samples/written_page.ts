@@ -22,6 +22,15 @@ export function writtenRaw(name: string, json: string, base64: string): string {
   const page = builtPage()
     .replace('id="document"></script>', () => `id="document">${json}</script>`)
     .replace('id="arrays"></script>', () => `id="arrays">${base64}</script>`);
+  return addressOf(name, page);
+}
+
+/** A page with a word on it. */
+export function emptyPage(): string {
+  return addressOf("empty", "<!DOCTYPE html><title>empty</title><p>empty");
+}
+
+function addressOf(name: string, page: string): string {
   const path = join(folder, `${name}.html`);
   writeFileSync(path, page);
   return `file://${path}`;

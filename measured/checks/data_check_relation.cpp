@@ -150,7 +150,9 @@ GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineVa
   fit.log10_h2 = weighted_median(std::move(h2));
   fit.log10_gain = weighted_median(gains);
   for (auto& gain : gains) gain.value = std::abs(gain.value - fit.log10_gain);
-  fit.spread = weighted_median(std::move(gains));
+  fit.spread = weighted_median(gains);
+  for (auto& gain : gains) gain.weight = 1.0;
+  fit.plain_spread = weighted_median(std::move(gains));
   fit_delay(blocks, transforms.period_s, fit);
   return fit;
 }

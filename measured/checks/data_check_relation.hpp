@@ -18,11 +18,12 @@ struct Quantity {
 /// How well x = gain y(t - delay) holds over the blocks of frequencies in which x and y are
 /// coherent, and with what gain.
 struct GainFit {
-  std::size_t blocks = 0;   ///< with coherence squared of kLeastCoherence or more
-  double log10_gain = 0.0;  ///< weighted median of log10 sqrt(Sxx/Syy)
-  double spread = 0.0;      ///< weighted median of the blocks' distances from it
-  double log10_h1 = 0.0;    ///< as log10_gain, of |Sxy|/Syy: all noise is in x
-  double log10_h2 = 0.0;    ///< of Sxx/|Sxy|: all noise is in y
+  std::size_t blocks = 0;     ///< with coherence squared of kLeastCoherence or more
+  double log10_gain = 0.0;    ///< weighted median of log10 sqrt(Sxx/Syy)
+  double spread = 0.0;        ///< weighted median of the blocks' distances from it
+  double plain_spread = 0.0;  ///< their median distance, all of one weight
+  double log10_h1 = 0.0;      ///< as log10_gain, of |Sxy|/Syy: all noise is in x
+  double log10_h2 = 0.0;      ///< of Sxx/|Sxy|: all noise is in y
   int sign = 1;
   double delay_s = 0.0;        ///< x later than y
   double delay_error_s = 0.0;  ///< standard error

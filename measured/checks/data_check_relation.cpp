@@ -208,4 +208,11 @@ double mean_coherence(const Transforms& transforms, Quantity x, Quantity y) {
   return power > 0.0 ? sum / power : 0.0;
 }
 
+std::size_t coherent_blocks(const Transforms& transforms, Quantity x, Quantity y) {
+  const auto blocks =
+      blocks_of(transforms, values_of(transforms, x), values_of(transforms, y), 0.5);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      blocks, [](const Block& block) { return block.coherence() >= kLeastCoherence; }));
+}
+
 }  // namespace flexarm::measured

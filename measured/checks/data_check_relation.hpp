@@ -58,4 +58,8 @@ LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Qu
 /// there, not of its derivative. Unrelated signals show 1/8.
 double mean_coherence(const Transforms& transforms, Quantity x, Quantity y);
 
+/// Blocks with coherence squared of kLeastCoherence or more. Of unrelated signals one in 80,000 is:
+/// (1 - 0.8)^7.
+std::size_t coherent_blocks(const Transforms& transforms, Quantity x, Quantity y);
+
 }  // namespace flexarm::measured

@@ -13,6 +13,7 @@ using arm::SensorKind;
 /// Mean coherence squared of a channel and its nearest relative below which it has none.
 /// Unrelated channels show 1/8 or so.
 constexpr double kRelated = 0.3;
+constexpr std::size_t kFewestCoherentBlocks = 3;
 /// Variance over floor of the spectrum; 1 for white noise but for the scatter of the floor.
 constexpr double kWhite = 4.0;
 
@@ -26,13 +27,35 @@ int order_of(const CheckedSignal& signal) {
   return arm::derivative_order(*signal.sensor);
 }
 
-/// How much of signal i is related to signal j.
-double relation(const Comparison& comparison, std::size_t i, std::size_t j) {
-  // Alike spectra: where one falls across a block and the other does not, coherence is lost.
+/// Two signals as derivatives of alike spectra: where one falls across a block and the other does
+/// not, coherence is lost.
+struct AlikePair {
+  Quantity x;
+  Quantity y;
+};
+
+AlikePair alike(const Comparison& comparison, std::size_t i, std::size_t j) {
   const int a = order_of(comparison.signals[i]);
   const int b = order_of(comparison.signals[j]);
   const int order = std::max(a, b);
-  return mean_coherence(comparison.transforms, {i, order - a}, {j, order - b});
+  return {{i, order - a}, {j, order - b}};
+}
+
+/// How much of signal i is related to signal j.
+double relation(const Comparison& comparison, std::size_t i, std::size_t j) {
+  const auto [x, y] = alike(comparison, i, j);
+  return mean_coherence(comparison.transforms, x, y);
+}
+
+/// Whether a few blocks of signal i are coherent with another, as those where the torque drives it.
+/// The power of an angle is in its slowest lines, which friction and the end of the record disturb.
+bool answers_somewhere(const Comparison& comparison, std::size_t i) {
+  for (std::size_t j = 0; j < comparison.signals.size(); ++j) {
+    if (i == j || !comparison.usable[j]) continue;
+    const auto [x, y] = alike(comparison, i, j);
+    if (coherent_blocks(comparison.transforms, x, y) >= kFewestCoherentBlocks) return true;
+  }
+  return false;
 }
 
 bool is_white(const Comparison& comparison, std::size_t i) {
@@ -70,6 +93,7 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
   };
   for (std::size_t i = 1; i < count; ++i) {
     if (!comparison.usable[i] || closest[i] >= kRelated || !others_respond(i)) continue;
+    if (answers_somewhere(comparison, i)) continue;
     findings.push_back(
         {Fault::dead_channel, comparison.signals[i].name, 0, 0.0, closest[i],
          fmt::format(

@@ -104,7 +104,7 @@ struct DataCheckOptions {
   double drift_errors = 5.0;
   /// Delay: |delay| > this, and > `delay_errors` standard errors.
   double least_delay_periods = 0.3;
-  double least_described_delay_periods = 1.2;  ///< by the described arm
+  double least_described_delay_periods = 1.7;  ///< by the described arm
   double delay_errors = 5.0;
   /// Unit: gain of a relation that is exact off by a factor > this; of one that holds roughly, off
   /// by > `rough_unit_factor`.

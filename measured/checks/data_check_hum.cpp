@@ -33,8 +33,9 @@ constexpr int kTransientDegree = 2;
 constexpr double kLeastHumScore = 8.0;
 constexpr double kCandidateScore = 4.0;
 constexpr double kLeastAmplitude = 0.03;  // standard deviations
-constexpr double kLeastAlone = 0.15;      // of the only channel, beside pulses
-constexpr double kMostChange = 0.25;      // of the amplitude, over half the record
+constexpr double kLeastBesideSteps = 0.12;
+constexpr double kLeastAlone = 0.15;  // of the only channel, beside pulses
+constexpr double kMostChange = 0.25;  // of the amplitude, over half the record
 constexpr double kChangeErrors = 3.0;
 constexpr int kRefinements = 4;
 constexpr double kNoTorque = 1e-9;  // of its power, in a line
@@ -242,9 +243,11 @@ class HumSearch {
     if (!band_.is_usable()) return;
     transform_all();
     const Eigen::VectorXcd torque = lines_.col(0);
-    const auto torque_line = candidate_of(0, torque);
+    auto torque_line = candidate_of(0, torque);
     // Friction answers a torque with a line here by others.
-    if (torque_line && !may_hum(*torque_line)) return;
+    const bool is_given = torque_line && !may_hum(*torque_line);
+    if (is_given && (!has_few_levels(signals_[0].values) || is_clear(*torque_line))) return;
+    if (is_given) torque_line.reset();
     auto found = lines_of_channels(torque);
     if (torque_line) {
       const auto without = lines_of_channels(
@@ -312,10 +315,15 @@ class HumSearch {
     return found;
   }
 
+  static bool is_clear(const HumLine& line) { return line.score() > kLeastHumScore; }
+
   bool is_hum(std::size_t signal, const HumLine& line) const {
     const double reach_Hz = std::max(kMainsTolerance_Hz, kGridLines / band_.duration_s());
-    return line.score() > kLeastHumScore &&
-           std::abs(line.amplitude) > kLeastAmplitude * signals_[signal].deviation &&
+    // Steps of a torque excite modes of the tip's acceleration beyond the smooth gain.
+    const bool is_shaken = signals_[signal].is(arm::SensorKind::tip_acceleration) &&
+                           has_few_levels(signals_[0].values);
+    const double least = is_shaken ? kLeastBesideSteps : kLeastAmplitude;
+    return is_clear(line) && std::abs(line.amplitude) > least * signals_[signal].deviation &&
            std::abs(line.frequency_Hz - band_.centre_Hz()) <= reach_Hz && line.is_constant();
   }
 

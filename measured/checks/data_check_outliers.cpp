@@ -1,6 +1,7 @@
 #include "measured/checks/data_check_outliers.hpp"
 
 #include "measured/checks/data_check_prediction.hpp"
+#include "measured/checks/data_check_shaking.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <Eigen/Core>
@@ -178,38 +179,27 @@ struct Shaking {
   }
 };
 
-/// Samples that a jump of the torque shakes: it changes by half its standard deviation and by eight
-/// times its median change, in the record and around, as in a series of pulses.
-std::vector<bool> shaken_samples(const Eigen::VectorXd& torque) {
-  constexpr double kJump = 0.5;
-  constexpr double kUnusual = 8.0;
-  const Eigen::Index samples = torque.size();
-  const Eigen::VectorXd change = (torque.tail(samples - 1) - torque.head(samples - 1)).cwiseAbs();
-  const double usual = median({change.data(), change.data() + change.size()});
-  std::vector<bool> shaken(static_cast<std::size_t>(samples), false);
-  const auto shake = [&](Eigen::Index from) {
-    const Eigen::Index to = std::min(samples, from + static_cast<Eigen::Index>(kAround));
-    for (Eigen::Index k = std::max<Eigen::Index>(0, from - 1); k < to; ++k) {
-      shaken[static_cast<std::size_t>(k)] = true;
-    }
+/// Samples that a jump of the torque, or of friction, shakes. A torque that is not known may jump
+/// anywhere.
+std::vector<bool> shaken_samples(std::span<const CheckedSignal> signals,
+                                 const std::vector<bool>& usable, const Eigen::VectorXd& torque) {
+  const std::size_t samples = signals[0].values.size();
+  if (!usable[0]) return std::vector<bool>(samples, true);
+  std::vector<bool> shaken = samples_near_stops(signals, usable, kAround);
+  const auto shake = [&](std::size_t from) {
+    for (std::size_t k = from; k < std::min(samples, from + kAround + 1); ++k) shaken[k] = true;
   };
-  for (Eigen::Index k = 0; k < change.size(); ++k) {
-    if (change[k] <= std::max(kJump, kUnusual * usual)) continue;
-    constexpr auto kBeside = static_cast<Eigen::Index>(kAround);
-    const Eigen::Index from = std::max<Eigen::Index>(0, k - kBeside);
-    const Eigen::Index to = std::min(change.size(), k + kBeside + 1);
-    if (change[k] > kUnusual * median({change.data() + from, change.data() + to})) shake(k + 1);
-  }
+  for (const Eigen::Index k : torque_jumps(torque)) shake(static_cast<std::size_t>(k));
   shake(0);  // the record may begin with a jump
   return shaken;
 }
 
 /// Repairs the spikes among the first kOwnReach samples, which have few neighbours before them, and
 /// puts them into `found`. They stand alone if no residual of the kAround samples behind is kAlone
-/// of their size.
+/// of their size. The first of those in `rests` reads what an arm at rest does.
 void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
-                  const Shaking& shaking, const DataCheckOptions& options,
-                  std::vector<std::set<std::size_t>>& found) {
+                  const std::vector<bool>& rests, const Shaking& shaking,
+                  const DataCheckOptions& options, std::vector<std::set<std::size_t>>& found) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
     for (std::size_t k = kOwnReach; k-- > 0;) {
@@ -221,7 +211,7 @@ void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>&
       const bool is_alone =
           std::ranges::all_of(std::span(left).subspan(k + 1, kAround),
                               [size](double beside) { return std::abs(beside) <= kAlone * size; });
-      if (size <= least || !is_alone) continue;
+      if (size <= least || !is_alone || (k == 0 && rests[i])) continue;
       values[i][static_cast<Eigen::Index>(k)] -= left[k];
       found[i].insert(k);
     }
@@ -230,16 +220,16 @@ void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>&
 
 /// As `repair_begin` at both ends; the end is the begin of the reversed record.
 void repair_ends(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
-                 Shaking shaking, const DataCheckOptions& options,
+                 const std::vector<bool>& rests, Shaking shaking, const DataCheckOptions& options,
                  std::vector<std::set<std::size_t>>& found) {
   const auto reverse = [&] {
     for (auto& signal : values) signal.reverseInPlace();
     std::reverse(shaking.samples.begin(), shaking.samples.end());
   };
-  repair_begin(values, usable, shaking, options, found);
+  repair_begin(values, usable, rests, shaking, options, found);
   reverse();
   std::vector<std::set<std::size_t>> at_end(found.size());
-  repair_begin(values, usable, shaking, options, at_end);
+  repair_begin(values, usable, std::vector<bool>(found.size(), false), shaking, options, at_end);
   reverse();
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (const std::size_t k : at_end[i]) found[i].insert(shaking.samples.size() - 1 - k);
@@ -348,18 +338,22 @@ DataFinding finding_of(const CheckedSignal& signal, const std::set<std::size_t>&
 std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options, bool ends_are_sound) {
-  const std::size_t samples = signals[0].values.size();
   std::vector<Eigen::VectorXd> values = standardised(signals);
-  // A torque that is not known may jump anywhere.
-  Shaking shaking{usable[0] ? shaken_samples(values[0]) : std::vector<bool>(samples, true), {}};
+  Shaking shaking{shaken_samples(signals, usable, values[0]), {}};
   for (const auto& signal : signals) {
     // An angle and a displacement do not jump.
     const bool is_smooth =
         signal.is(arm::SensorKind::hub_angle) || signal.is(arm::SensorKind::tip_displacement);
     shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
   }
+  std::vector<bool> rests;
+  for (const auto& signal : signals) {
+    constexpr double kNextToRest = 0.1;  // standard deviations
+    rests.push_back(options.starts_at_rest &&
+                    std::abs(signal.values[0]) < kNextToRest * signal.deviation);
+  }
   std::vector<std::set<std::size_t>> found(signals.size());
-  if (ends_are_sound) repair_ends(values, usable, shaking, options, found);
+  if (ends_are_sound) repair_ends(values, usable, rests, shaking, options, found);
   const auto take = [&](const std::vector<Outlier>& chosen) {
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
@@ -380,7 +374,7 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     }
   }
   repair(values, found, usable);
-  if (ends_are_sound) repair_ends(values, usable, shaking, options, found);
+  if (ends_are_sound) repair_ends(values, usable, rests, shaking, options, found);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (found[i].empty()) continue;

@@ -122,7 +122,15 @@ void fit_delay(const std::vector<Block>& blocks, double period_s, GainFit& fit) 
     fit.delay_s -= slope / curvature;
   }
   fit.agreement = fit.sign * alignment(blocks, fit.delay_s) / total;
-  fit.delay_error_s = std::sqrt(1.0 / curvature);
+  // Phases scatter by more than their noise where the arm is not quite as described.
+  double scatter = 0.0;
+  for (const auto& block : blocks) {
+    const double phase = std::arg(block.xy * static_cast<double>(fit.sign) *
+                                  std::polar(1.0, block.omega_rad_per_s * fit.delay_s));
+    scatter += phase_weight(block) * phase * phase;
+  }
+  const double freedom = std::max(1.0, static_cast<double>(blocks.size()) - 1.0);
+  fit.delay_error_s = std::sqrt(std::max(1.0, scatter / freedom) / curvature);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "measured/checks/data_check_sampling_jitter.hpp"
 
 #include "measured/checks/data_check_prediction.hpp"
+#include "measured/checks/data_check_shaking.hpp"
 #include "measured/checks/data_check_values.hpp"
 #include "measured/spectra/robust.hpp"
 
@@ -20,10 +21,7 @@ using Eigen::Index;
 
 constexpr int kJitterReach = 4;  // samples of its own that predict one of a channel
 constexpr std::size_t kFewestRows = 200;
-constexpr Index kShakenFor = 24;  // samples after a jump of the torque
-constexpr double kJumpOfTorque = 0.5;
-constexpr double kUnusualJump = 8.0;
-constexpr Index kJumpSide = 12;
+constexpr Index kShakenFor = 24;       // samples after a jump of the torque
 constexpr double kMostResidual = 4.0;  // robust deviations; as this in their covariance
 constexpr double kMostSquare = 12.0;   // u over its expected value; larger ones are taken for this
 constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
@@ -31,9 +29,9 @@ constexpr int kJitterReweightings = 8;
 constexpr Index kTimeBlocks = 12;
 constexpr double kLeastEvidenceInBlocks = 2.0;  // standard errors
 constexpr double kLeastShareInBlocks = 0.5;     // of the rms of the whole
-constexpr double kLeastEvidence = 4.0;          // standard errors
-constexpr double kAcross = 1.5;  // by which what grows across the derivatives counts
-constexpr double kLeastRms_periods = 0.045;
+constexpr double kLeastEvidence = 4.5;          // standard errors
+constexpr double kAcross = 1.5;                 // by which what grows across the derivatives counts
+constexpr double kLeastRms_periods = 0.05;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
 constexpr double kLeastRmsAlone_periods = 0.12;  // of one channel
 constexpr Index kGroups = 12;
@@ -52,16 +50,7 @@ std::vector<Index> calm_rows(const Eigen::VectorXd& torque, bool torque_is_known
   };
   shake(0, kShakenFor);  // the record may begin with a jump
   if (torque_is_known) {
-    const Eigen::VectorXd change = (torque.tail(samples - 1) - torque.head(samples - 1)).cwiseAbs();
-    const double usual = median({change.data(), change.data() + change.size()});
-    for (Index k = 0; k < change.size(); ++k) {
-      if (change[k] <= std::max(kJumpOfTorque, kUnusualJump * usual)) continue;
-      const Index from = std::max<Index>(0, k - kJumpSide);
-      const Index to = std::min(change.size(), k + kJumpSide + 1);
-      if (change[k] > kUnusualJump * median({change.data() + from, change.data() + to})) {
-        shake(k - kJitterReach + 1, k + 1 + kShakenFor);
-      }
-    }
+    for (const Index k : torque_jumps(torque)) shake(k - kJitterReach + 1, k + 1 + kShakenFor);
   }
   std::vector<Index> rows;
   for (Index k = kJitterReach; k < samples - kJitterReach; ++k) {

@@ -43,6 +43,18 @@ std::vector<double> directions(const std::vector<double>& velocity) {
   return sign;
 }
 
+/// Friction that is more near rest, as Stribeck's: a direction that fades with the velocity.
+std::vector<double> near_rest(const std::vector<double>& direction,
+                              const std::vector<double>& velocity) {
+  constexpr double kFades = 0.3;  // of the velocity's standard deviation
+  const double fades = std::max(kFades * standard_deviation(velocity), 1e-300);
+  std::vector<double> friction;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    friction.push_back(direction[k] * std::exp(-std::abs(velocity[k]) / fades));
+  }
+  return friction;
+}
+
 /// Real parts, then imaginary ones, of the hub's acceleration over the lines that are asked.
 Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const double> values,
                                   double period_s) {
@@ -81,22 +93,25 @@ std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
   };
   const std::vector<double> velocity = velocity_of(hub, period_s);
   const Eigen::VectorXd target = slow_acceleration(hub, hub.values, period_s);
-  Eigen::MatrixXd columns(target.size(), 4);
+  const std::vector<double> direction = directions(velocity);
+  Eigen::MatrixXd columns(target.size(), 5);
   columns.col(0) = answer(torque.values);
   columns.col(1) = -answer(std::vector<double>(hub.values.size(), 1.0));
-  columns.col(2) = -answer(directions(velocity));
+  columns.col(2) = -answer(direction);
   columns.col(3) = -answer(velocity);
+  columns.col(4) = -answer(near_rest(direction, velocity));
   Eigen::VectorXd scale = columns.colwise().norm().transpose();
   scale = scale.array().max(1e-300);
   columns = columns * scale.cwiseInverse().asDiagonal();
-  Eigen::Matrix4d normal = columns.transpose() * columns;
+  Eigen::MatrixXd normal = columns.transpose() * columns;
   normal.diagonal().array() += 1e-12;
-  const Eigen::LDLT<Eigen::Matrix4d> factors(normal);
-  const Eigen::Vector4d solution = factors.solve(columns.transpose() * target);
+  const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
+  const Eigen::VectorXd solution = factors.solve(columns.transpose() * target);
   const double variance = (target - columns * solution).squaredNorm() /
                           static_cast<double>(target.size() - columns.cols());
   const double offset = solution[1] / scale[1];
-  const double error = std::sqrt(variance * factors.solve(Eigen::Vector4d::Unit(1))[1]) / scale[1];
+  const double error =
+      std::sqrt(variance * factors.solve(Eigen::VectorXd::Unit(columns.cols(), 1))[1]) / scale[1];
   const double size = std::abs(offset);
   if (!(size > comparison.options.least_torque_offset * torque.deviation) ||
       !(size > comparison.options.offset_errors * error)) {

@@ -26,11 +26,18 @@ std::string_view unit_shown(const CheckedSignal& signal) {
 
 /// Whether changes fade into a run, `at(1)` the nearest: in friction a hub comes to rest on a
 /// parabola, with changes 1/2, 3/2, 5/2, ... of one size. Noise and clipping show no such row.
+/// `rounding` is the step in which values are written: a change is off by as much.
 template <class Change>
-bool fades(const Change& at) {
-  return at(1) * at(2) >= 0.0 && at(2) * at(3) > 0.0 && at(3) * at(4) > 0.0 &&
-         std::abs(at(1)) <= 0.5 * std::abs(at(2)) && std::abs(at(2)) <= 0.75 * std::abs(at(3)) &&
-         std::abs(at(3)) <= 0.9 * std::abs(at(4));
+bool fades(const Change& at, double rounding) {
+  const auto smaller = [&](int near, int far, double factor) {
+    return std::abs(at(near)) <= factor * std::abs(at(far)) + (1.0 + factor) * rounding;
+  };
+  const auto alike = [&](int near, int far) {
+    const double product = at(near) * at(far);
+    return product > 0.0 || std::abs(product) <= rounding * rounding;
+  };
+  return (at(1) * at(2) >= 0.0 || alike(1, 2)) && alike(2, 3) && alike(3, 4) &&
+         smaller(1, 2, 0.5) && smaller(2, 3, 0.75) && smaller(3, 4, 0.9);
 }
 
 std::size_t distinct_values(std::span<const double> x) {
@@ -156,7 +163,11 @@ std::optional<DataFinding> saturation(const CheckedSignal& signal,
   for (const double value : {low, high}) {
     if (value == 0.0) continue;  // where a sensor rests
     const Limit limit = limit_at(signals, signal, value, step);
-    if (limit.samples < static_cast<std::size_t>(options.least_clipped_samples)) continue;
+    // A torque that repeats itself has an arm without noise repeat its peaks, single samples.
+    const bool is_in_runs = limit.samples > limit.runs;
+    if (limit.samples < static_cast<std::size_t>(options.least_clipped_samples) || !is_in_runs) {
+      continue;
+    }
     samples += limit.samples;
     const bool first = !found || limit.first < found->first_sample;
     const std::string bounds =
@@ -204,6 +215,8 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
   if (signal.is_torque()) return std::nullopt;
   const auto x = signal.values;
   const auto pairs = equal_runs(x, 2);
+  // A hub that friction stops creeps by the last digit.
+  const double rounding = signal.is(arm::SensorKind::hub_angle) ? smallest_change(x) : 0.0;
   std::optional<DataFinding> found;
   std::size_t places = 0;
   EqualRun first_run;
@@ -213,7 +226,7 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
         x[run.first] == 0.0 && (run.first == 0 || signal.is(arm::SensorKind::hub_velocity));
     // What goes on from its first reading without a jump has not begun to move, or shows it late.
     const bool begins = run.first == 0 && !catches_up(x, run);
-    if (rests_at_zero || begins || is_restful(x, run) || is_held(signals, signal, run) ||
+    if (rests_at_zero || begins || is_restful(x, run, rounding) || is_held(signals, signal, run) ||
         !another_moves(signals, signal, run) || !is_long(run, x, pairs, step)) {
       continue;
     }
@@ -237,14 +250,15 @@ bool has_few_levels(std::span<const double> torque) {
   return distinct_values(torque) < kFewestTorqueLevels;
 }
 
-bool is_restful(std::span<const double> x, const EqualRun& run) {
+bool is_restful(std::span<const double> x, const EqualRun& run, double rounding) {
   constexpr std::size_t kChanges = 4;
   const std::size_t last = run.first + run.count - 1;
-  const bool fades_in = run.first < kChanges || fades([&](std::size_t j) {
-                          return x[run.first - j + 1] - x[run.first - j];
-                        });
-  const bool fades_out = last + kChanges >= x.size() ||
-                         fades([&](std::size_t j) { return x[last + j] - x[last + j - 1]; });
+  const bool fades_in =
+      run.first < kChanges ||
+      fades([&](std::size_t j) { return x[run.first - j + 1] - x[run.first - j]; }, rounding);
+  const bool fades_out =
+      last + kChanges >= x.size() ||
+      fades([&](std::size_t j) { return x[last + j] - x[last + j - 1]; }, rounding);
   return fades_in && fades_out;
 }
 

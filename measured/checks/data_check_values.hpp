@@ -21,7 +21,7 @@ bool has_few_levels(std::span<const double> torque);
 
 /// Whether a run of equal values is entered and left as a hub comes to rest and leaves it: with
 /// changes that fade like 1/2, 3/2, 5/2 of one size. The ends of the record say nothing against it.
-bool is_restful(std::span<const double> values, const EqualRun& run);
+bool is_restful(std::span<const double> values, const EqualRun& run, double rounding = 0.0);
 
 /// A coarse step. `floor_power` has for each signal the power, in its unit squared, of white noise
 /// as low as the lowest part of its spectrum.

@@ -1,0 +1,75 @@
+#include "measured/checks/data_check_shaking.hpp"
+
+#include "measured/spectra/robust.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexarm::measured {
+
+using Eigen::Index;
+
+std::vector<Index> torque_jumps(const Eigen::VectorXd& torque) {
+  constexpr double kJump = 0.5;
+  constexpr double kUnusual = 8.0;
+  constexpr Index kBeside = 12;
+  const Eigen::VectorXd change =
+      (torque.tail(torque.size() - 1) - torque.head(torque.size() - 1)).cwiseAbs();
+  const double usual = median({change.data(), change.data() + change.size()});
+  std::vector<Index> jumps;
+  for (Index k = 0; k < change.size(); ++k) {
+    if (change[k] <= std::max(kJump, kUnusual * usual)) continue;
+    const Index from = std::max<Index>(0, k - kBeside);
+    const Index to = std::min(change.size(), k + kBeside + 1);
+    if (change[k] > kUnusual * median({change.data() + from, change.data() + to})) {
+      jumps.push_back(k);
+    }
+  }
+  return jumps;
+}
+
+std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
+                                     const std::vector<bool>& usable, std::size_t reach) {
+  constexpr Eigen::Index kMean = 5;
+  constexpr double kNoises = 4.0;
+  constexpr double kLeastMotion = 0.03;  // standard deviations
+  constexpr double kMostShaken = 0.25;   // of the samples
+  const std::size_t samples = signals[0].values.size();
+  const std::vector<bool> none(samples, false);
+  const CheckedSignal* hub = nullptr;
+  for (std::size_t i = 1; i < signals.size(); ++i) {
+    if (!usable[i]) continue;
+    if (signals[i].is(arm::SensorKind::hub_angle) && hub == nullptr) hub = &signals[i];
+    if (signals[i].is(arm::SensorKind::hub_velocity)) hub = &signals[i];
+  }
+  if (hub == nullptr) return none;
+  // By mean differences of an angle.
+  const bool is_angle = hub->is(arm::SensorKind::hub_angle);
+  std::vector<double> motion;
+  for (std::size_t k = 0; k + kMean < samples; ++k) {
+    double sum = 0.0;
+    for (std::size_t j = k; j < k + kMean; ++j) sum += hub->values[j];
+    motion.push_back(is_angle ? hub->values[k + kMean] - hub->values[k]
+                              : sum / static_cast<double>(kMean));
+  }
+  std::vector<double> bends;
+  for (std::size_t k = 2; k < samples; ++k) {
+    bends.push_back(hub->values[k] - 2.0 * hub->values[k - 1] + hub->values[k - 2]);
+  }
+  const double noise = robust_deviation(bends) / std::sqrt(6.0) *
+                       (is_angle ? std::sqrt(2.0) : 1.0 / std::sqrt(static_cast<double>(kMean)));
+  const double rest = std::max(kNoises * noise, kLeastMotion * standard_deviation(motion));
+  const auto state = [&](double value) { return value > rest ? 1 : (value < -rest ? -1 : 0); };
+  std::vector<bool> shaken = none;
+  for (std::size_t k = 1; k < motion.size(); ++k) {
+    if (state(motion[k]) == state(motion[k - 1])) continue;
+    const std::size_t from = k > reach ? k - reach : 0;
+    const std::size_t to = std::min(samples, k + kMean + reach);
+    std::fill(shaken.begin() + static_cast<std::ptrdiff_t>(from),
+              shaken.begin() + static_cast<std::ptrdiff_t>(to), true);
+  }
+  const auto count = static_cast<double>(std::ranges::count(shaken, true));
+  return count > kMostShaken * static_cast<double>(samples) ? none : shaken;
+}
+
+}  // namespace flexarm::measured

@@ -3,7 +3,9 @@
 Both have the same members:
 
     client          the distributed.Client
-    workers()       how many workers there are
+    workers()       how many workers there are that can run the tasks
+    only()          their addresses, where some cannot; None: any may have a task
+    unfit()         why some cannot, by their addresses
     is_lost()       the scheduler is gone
     tend()          starts workers anew where some died
     close()         ends what was started
@@ -132,6 +134,12 @@ class LocalCluster:
     def workers(self):
         return len(self._processes)
 
+    def only(self):
+        return None
+
+    def unfit(self):
+        return {}
+
     def is_lost(self):
         return not self._scheduler.is_alive() or self.client.status != "running"
 
@@ -168,11 +176,17 @@ class LocalCluster:
 
 
 class RemoteCluster:
-    """The scheduler of `address`; its workers are its owner's."""
+    """The scheduler of `address`; its workers are its owner's.
+
+    `why_unfit` is run in each worker, beside its tasks: it returns why the worker cannot run any,
+    or None.
+    """
 
     _LOOKS_EVERY_S = 2.0
+    # What is amiss may be mended: a folder that was not mounted, or that NFS does not show yet.
+    _ASKS_AGAIN_S = 10.0
 
-    def __init__(self, address):
+    def __init__(self, address, why_unfit):
         self.client = None
         try:
             self.client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False)
@@ -180,16 +194,57 @@ class RemoteCluster:
             raise CampaignError(
                 f"--scheduler {address}: no scheduler answers ({type(error).__name__})"
             ) from None
+        self._why_unfit = why_unfit
         self._looked = -self._LOOKS_EVERY_S
-        self._workers = 0
+        self._answers = {}  # worker's address: (time of the answer, why it is unfit or None)
+        self._asked = {}  # worker's address: the answer to come
 
     def workers(self):
         now = time.monotonic()
         if now - self._looked >= self._LOOKS_EVERY_S:
             self._looked = now
             with contextlib.suppress(OSError, asyncio.TimeoutError):
-                self._workers = len(self.client.scheduler_info()["workers"])
-        return self._workers
+                self._ask(self.client.scheduler_info()["workers"], now)
+        for address in [one for one, answer in self._asked.items() if answer.done()]:
+            self._hear(address, self._asked.pop(address), now)
+        return sum(why is None for _, why in self._answers.values())
+
+    def _ask(self, present, now):
+        """Those that are new, and from time to time those that were unfit."""
+        for gone in [one for one in self._answers if one not in present]:
+            del self._answers[gone]
+        for address in present:
+            answered, why = self._answers.get(address, (-self._ASKS_AGAIN_S, ""))
+            again = why is not None and now - answered >= self._ASKS_AGAIN_S
+            if again and address not in self._asked:
+                # One each: a machine that has vanished keeps none of the others waiting.
+                self._asked[address] = asyncio.run_coroutine_threadsafe(
+                    self.client._run(self._why_unfit, workers=[address], on_error="return"),
+                    self.client.loop.asyncio_loop,
+                )
+
+    def _hear(self, address, answer, now):
+        try:
+            why = answer.result()[address]
+        except (Exception, asyncio.CancelledError):
+            return  # the connection is gone: asked at the next look
+        if isinstance(why, (OSError, asyncio.TimeoutError)):
+            return
+        if isinstance(why, BaseException):  # it has no module flexarm, or one that is older
+            why = f"worker {address}: {why}"
+        self._answers[address] = (now, why)
+
+    def exclude(self, address, why):
+        """A worker said of itself that it cannot run tasks."""
+        self._answers[address] = (time.monotonic(), why)
+
+    def only(self):
+        if not self.unfit():
+            return None
+        return [address for address, (_, why) in self._answers.items() if why is None]
+
+    def unfit(self):
+        return {address: why for address, (_, why) in self._answers.items() if why is not None}
 
     def is_lost(self):
         return self.client.status != "running"

@@ -51,6 +51,8 @@ def quiet():
     """The library's own messages do not stand among those of the campaign."""
     logging.disable(logging.CRITICAL)
     warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado|distributed")
+    # Said where the machine has other work.
+    warnings.filterwarnings("ignore", message="Creating scratch directories")
 
 
 def _as_child():

@@ -343,7 +343,7 @@ class Runner:
             self._nobody_since = now
         elif unfit and now - self._nobody_since > _WITHOUT_FIT_WORKERS_S:
             raise CampaignError(
-                f"scheduler {self._address}: none of its {len(unfit)} workers can run the tasks"
+                f"scheduler {self._address}: no worker can run the tasks, {len(unfit)} cannot"
             )
         elif not unfit and now - self._nobody_since > _WITHOUT_WORKERS_S:
             if not self._said_that_nobody:

@@ -255,6 +255,8 @@ class RemoteCluster:
         return 0
 
     def close(self):
+        for answer in self._asked.values():
+            answer.cancel()
         _close_client(self.client)
 
 

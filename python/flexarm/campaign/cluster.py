@@ -260,8 +260,14 @@ class RemoteCluster:
         _close_client(self.client)
 
 
+# The destructor of a client closes it again, under a lock that the start of the next may hold in the
+# same thread: a client that is collected then stops the program for ever. So none is collected.
+_closed_clients = []
+
+
 def _close_client(client):
     """Without waiting for a scheduler that may be gone."""
     if client is not None:
+        _closed_clients.append(client)
         with contextlib.suppress(Exception):
             client.close(timeout=1)

@@ -307,6 +307,7 @@ class Scheduler(CampaignCase):
         )
         process = subprocess.Popen(
             [sys.executable, "-c", script], cwd=self.folder,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )
         self.addCleanup(process.wait)

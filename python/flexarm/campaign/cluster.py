@@ -126,9 +126,7 @@ class LocalCluster:
         try:
             self._address = heard.recv()
             self.tend()
-            self.client = distributed.Client(
-                self._address, timeout=_START_S, set_as_default=False
-            )
+            self.client = _connected_client(self._address, timeout=_START_S)
         except (EOFError, OSError):
             self.close()
             raise CampaignError("the scheduler of this machine does not start") from None
@@ -191,7 +189,7 @@ class RemoteCluster:
     def __init__(self, address, why_unfit):
         self.client = None
         try:
-            self.client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False)
+            self.client = _connected_client(address, timeout=_CONNECT_S)
         except (OSError, ValueError, TypeError) as error:
             raise CampaignError(
                 f"--scheduler {address}: no scheduler answers ({type(error).__name__})"
@@ -262,12 +260,23 @@ class RemoteCluster:
 
 # The destructor of a client closes it again, under a lock that the start of the next may hold in the
 # same thread: a client that is collected then stops the program for ever. So none is collected.
-_closed_clients = []
+_kept_clients = []
+
+
+def _connected_client(address, **options):
+    """A client; it is closed and kept where its constructor fails, too."""
+    client = distributed.Client.__new__(distributed.Client)
+    _kept_clients.append(client)
+    try:
+        client.__init__(address, set_as_default=False, **options)
+    except BaseException:
+        _close_client(client)
+        raise
+    return client
 
 
 def _close_client(client):
     """Without waiting for a scheduler that may be gone."""
     if client is not None:
-        _closed_clients.append(client)
         with contextlib.suppress(Exception):
             client.close(timeout=1)

@@ -1,6 +1,7 @@
 """Campaigns: files, bytes of the results, deaths of workers and of the scheduler, Ctrl-C."""
 
 import contextlib
+import dataclasses
 import json
 import multiprocessing
 import os
@@ -15,7 +16,9 @@ from unittest import mock
 import dask
 
 import flexarm
-from flexarm.campaign import cluster, file_digests, open_results, runner, task_files
+from flexarm.campaign import (
+    cluster, file_digests, open_results, program, runner, task_files, work,
+)
 
 from campaign_case import WAITS_S, CampaignCase
 
@@ -291,6 +294,71 @@ class Scheduler(CampaignCase):
         self.assertEqual([row["square"] for row in self.rows(self.folder / "c-results")],
                          ["0", "1", "4", "9", "16"])
         self.assertFalse(local.is_lost())
+
+    def foreign_worker(self, address, preparation):
+        """A worker of `address` in a process of its own, which `preparation` makes another."""
+        script = (
+            f"{preparation}\n"
+            "import asyncio, distributed\n"
+            "async def serve():\n"
+            f"    async with distributed.Worker({address!r}, nthreads=1, dashboard=False) as one:\n"
+            "        await one.finished()\n"
+            "asyncio.run(serve())"
+        )
+        process = subprocess.Popen(
+            [sys.executable, "-c", script], cwd=self.folder,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+
+    def test_a_worker_that_cannot_run_the_tasks_takes_none(self):
+        """It would fail tasks more quickly than the others do them."""
+        path = self.write(probe(30, "each_s = 0.1"))
+        local = cluster.LocalCluster(1)
+        self.addCleanup(local.close)
+        address = local.client.scheduler.address
+        other_build = "from flexarm.campaign import work; work.program_digest = lambda kind: 64 * '0'"
+        self.foreign_worker(address, other_build)
+        self.foreign_worker(address, "import sys; sys.modules['flexarm'] = None")
+        self.wait_for(lambda: len(local.client.scheduler_info()["workers"]) == 3)
+        status, output, errors = self.run_command(path, "--scheduler", address)
+        self.assertEqual(status, 0, output + errors)
+        self.assertIn("another flexarm", errors)
+        self.assertRegex(errors, "worker tcp://.*flexarm.*; gets no task")
+        self.assertEqual(errors.count("\n"), 2, errors)
+        # Without one that can, it waits, but not for ever.
+        for process in multiprocessing.active_children():
+            if process.name == "campaign-worker-0":
+                process.kill()
+        with mock.patch.object(runner, "_WITHOUT_FIT_WORKERS_S", 1.0):
+            status, _, errors = self.run_command(
+                path, "--scheduler", address, "--out", self.folder / "none"
+            )
+        self.assertEqual(status, 2)
+        self.assertIn("no worker can run the tasks, 2 cannot", errors)
+
+    def test_why_a_worker_cannot(self):
+        out = self.folder / "out"
+        shared = work.Shared(
+            "campaign_kinds.probe", str(self.folder), str(out), "run", 0,
+            program.program_digest(work._kind("campaign_kinds.probe")),
+        )
+        self.assertIn(f"{out}: no such folder", work.why_unfit(shared))
+        (out / "tasks").mkdir(parents=True)
+        self.assertIn(f"{out}: is another folder", work.why_unfit(shared))
+        with task_files.marked(out, "run"):
+            self.assertIsNone(work.why_unfit(shared))
+            for key, value, why in (
+                ("kind", "no_such.kind", "has no kind of campaign no_such.kind"),
+                ("program", "0" * 64, "another flexarm"),
+                ("folder", str(self.folder / "absent"), "no such folder"),
+                ("run", "another", "is another folder"),
+            ):
+                changed = dataclasses.replace(shared, **{key: value})
+                self.assertIn(why, work.why_unfit(changed))
+        self.assertFalse((out / "run").exists())
 
     def test_an_address_where_nothing_answers_is_refused(self):
         path = self.write(probe(1))

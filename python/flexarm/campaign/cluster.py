@@ -3,7 +3,9 @@
 Both have the same members:
 
     client          the distributed.Client
-    workers()       how many workers there are
+    workers()       how many workers there are that can run the tasks
+    only()          their addresses, where some cannot; None: any may have a task
+    unfit()         why some cannot, by their addresses
     is_lost()       the scheduler is gone
     tend()          starts workers anew where some died
     close()         ends what was started
@@ -49,6 +51,8 @@ def quiet():
     """The library's own messages do not stand among those of the campaign."""
     logging.disable(logging.CRITICAL)
     warnings.filterwarnings("ignore", category=DeprecationWarning, module="tornado|distributed")
+    # Said where the machine has other work.
+    warnings.filterwarnings("ignore", message="Creating scratch directories")
 
 
 def _as_child():
@@ -122,15 +126,19 @@ class LocalCluster:
         try:
             self._address = heard.recv()
             self.tend()
-            self.client = distributed.Client(
-                self._address, timeout=_START_S, set_as_default=False
-            )
+            self.client = _connected_client(self._address, timeout=_START_S)
         except (EOFError, OSError):
             self.close()
             raise CampaignError("the scheduler of this machine does not start") from None
 
     def workers(self):
         return len(self._processes)
+
+    def only(self):
+        return None
+
+    def unfit(self):
+        return {}
 
     def is_lost(self):
         return not self._scheduler.is_alive() or self.client.status != "running"
@@ -168,28 +176,75 @@ class LocalCluster:
 
 
 class RemoteCluster:
-    """The scheduler of `address`; its workers are its owner's."""
+    """The scheduler of `address`; its workers are its owner's.
+
+    `why_unfit` is run in each worker, beside its tasks: it returns why the worker cannot run any,
+    or None.
+    """
 
     _LOOKS_EVERY_S = 2.0
+    # What is amiss may be mended: a folder that was not mounted, or that NFS does not show yet.
+    _ASKS_AGAIN_S = 10.0
 
-    def __init__(self, address):
+    def __init__(self, address, why_unfit):
         self.client = None
         try:
-            self.client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False)
+            self.client = _connected_client(address, timeout=_CONNECT_S)
         except (OSError, ValueError, TypeError) as error:
             raise CampaignError(
                 f"--scheduler {address}: no scheduler answers ({type(error).__name__})"
             ) from None
+        self._why_unfit = why_unfit
         self._looked = -self._LOOKS_EVERY_S
-        self._workers = 0
+        self._answers = {}  # worker's address: (time of the answer, why it is unfit or None)
+        self._asked = {}  # worker's address: the answer to come
 
     def workers(self):
         now = time.monotonic()
         if now - self._looked >= self._LOOKS_EVERY_S:
             self._looked = now
             with contextlib.suppress(OSError, asyncio.TimeoutError):
-                self._workers = len(self.client.scheduler_info()["workers"])
-        return self._workers
+                self._ask(self.client.scheduler_info()["workers"], now)
+        for address in [one for one, answer in self._asked.items() if answer.done()]:
+            self._hear(address, self._asked.pop(address), now)
+        return sum(why is None for _, why in self._answers.values())
+
+    def _ask(self, present, now):
+        """Those that are new, and from time to time those that were unfit."""
+        for gone in [one for one in self._answers if one not in present]:
+            del self._answers[gone]
+        for address in present:
+            answered, why = self._answers.get(address, (-self._ASKS_AGAIN_S, ""))
+            again = why is not None and now - answered >= self._ASKS_AGAIN_S
+            if again and address not in self._asked:
+                # One each: a machine that has vanished keeps none of the others waiting.
+                self._asked[address] = asyncio.run_coroutine_threadsafe(
+                    self.client._run(self._why_unfit, workers=[address], on_error="return"),
+                    self.client.loop.asyncio_loop,
+                )
+
+    def _hear(self, address, answer, now):
+        try:
+            why = answer.result()[address]
+        except (Exception, asyncio.CancelledError):
+            return  # the connection is gone: asked at the next look
+        if isinstance(why, (OSError, asyncio.TimeoutError)):
+            return
+        if isinstance(why, BaseException):  # it has no module flexarm, or one that is older
+            why = f"worker {address}: {why}"
+        self._answers[address] = (now, why)
+
+    def exclude(self, address, why):
+        """A worker said of itself that it cannot run tasks."""
+        self._answers[address] = (time.monotonic(), why)
+
+    def only(self):
+        if not self.unfit():
+            return None
+        return [address for address, (_, why) in self._answers.items() if why is None]
+
+    def unfit(self):
+        return {address: why for address, (_, why) in self._answers.items() if why is not None}
 
     def is_lost(self):
         return self.client.status != "running"
@@ -198,7 +253,26 @@ class RemoteCluster:
         return 0
 
     def close(self):
+        for answer in self._asked.values():
+            answer.cancel()
         _close_client(self.client)
+
+
+# The destructor of a client closes it again, under a lock that the start of the next may hold in the
+# same thread: a client that is collected then stops the program for ever. So none is collected.
+_kept_clients = []
+
+
+def _connected_client(address, **options):
+    """A client; it is closed and kept where its constructor fails, too."""
+    client = distributed.Client.__new__(distributed.Client)
+    _kept_clients.append(client)
+    try:
+        client.__init__(address, set_as_default=False, **options)
+    except BaseException:
+        _close_client(client)
+        raise
+    return client
 
 
 def _close_client(client):

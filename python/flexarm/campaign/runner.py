@@ -16,8 +16,8 @@ from .cluster import LocalCluster, RemoteCluster
 from .errors import CampaignError
 from .file_digests import FileDigests
 from .program import program_digest
-from .task_files import finished, task_digest
-from .work import Shared, run_order
+from .task_files import finished, marked, task_digest
+from .work import Shared, run_order, why_unfit
 
 # So many orders a worker are with the scheduler: enough that none waits for the next, few enough
 # that its memory does not grow with the campaign.
@@ -34,6 +34,8 @@ _WEIGHT_OF_THE_LAST = 0.1
 _LOOKS_EVERY_S = 0.2
 _CONNECTS_EVERY_S = 2.0
 _WITHOUT_WORKERS_S = 5.0
+# Longer than NFS may take to show a new folder.
+_WITHOUT_FIT_WORKERS_S = 90.0
 _GATHERS_S = 5.0
 # So many workers may die in a row, for each of them, without any task ending.
 _DEATHS_IN_A_ROW = 20
@@ -96,7 +98,9 @@ class Runner:
         self._in_flight = {}  # key of a future: (future, [(index, digest, task), ...])
         self._again = []  # (index, digest, task) that a lost scheduler had
         self._ended = queue.SimpleQueue()
-        self._nobody_since = None  # since when the scheduler has no worker
+        self._nobody_since = None  # since when the scheduler has no worker for the tasks
+        self._said_that_nobody = False
+        self._said_unfit = set()
         self._mean_s = None  # duration of the last tasks
         self._deaths = 0  # of workers, since a task ended
         self._losses = 0  # of schedulers, likewise
@@ -118,9 +122,10 @@ class Runner:
             if stream.tell() == 0:
                 self._durations.writerow(["index", "task", "duration [s]"])
             try:
-                self._connect_first()
-                while self._turn():
-                    pass
+                with marked(self._out, self._run):
+                    self._connect_first()
+                    while self._turn():
+                        pass
             finally:
                 if self._cluster is not None:
                     self._cluster.close()
@@ -162,11 +167,15 @@ class Runner:
         if self._address is None:
             self._cluster = LocalCluster(self._workers)
         else:
-            self._cluster = RemoteCluster(self._address)
+            self._cluster = RemoteCluster(
+                self._address, functools.partial(why_unfit, self._shared())
+            )
 
     def _fill(self):
-        """Submits as many orders as may be in flight; whether some are."""
+        """Submits as many orders as may be in flight; whether there is something to wait for."""
         workers = max(self._cluster.workers(), 1)
+        if self._cluster.only() == []:
+            return bool(self._in_flight or self._again or self._next_task is not None)
         fresh = []
         while len(self._in_flight) + len(fresh) < _IN_FLIGHT_PER_WORKER * workers:
             tasks = self._next_order(workers)
@@ -191,11 +200,14 @@ class Runner:
                 break
         return tasks
 
-    def _submit(self, fresh):
-        shared = Shared(
+    def _shared(self):
+        return Shared(
             self._campaign.kind_name, str(self._campaign.folder), str(self._out.resolve()),
             self._run, self._generation, self._program,
         )
+
+    def _submit(self, fresh):
+        shared = self._shared()
         # Keys of one name are one group: what does not run yet waits at the scheduler, not at a
         # worker behind a long task.
         keys = [
@@ -203,10 +215,13 @@ class Runner:
             for i in range(len(fresh))
         ]
         self._serial += len(fresh)
+        only = self._cluster.only()
         orders = [[one[1:] for one in tasks] for tasks in fresh]
         try:
             futures = self._cluster.client.map(
-                functools.partial(run_order, shared), orders, key=keys, pure=False
+                functools.partial(run_order, shared), orders, key=keys, pure=False,
+                # If all of these go, others may have what they had: they say what they cannot do.
+                workers=only, allow_other_workers=only is not None,
             )
         except _OF_A_LOST_CONNECTION as error:
             self._again += [one for tasks in fresh for one in tasks]
@@ -232,10 +247,22 @@ class Runner:
                 # the worker: the attempts of the task say when it is enough.
                 self._again += tasks
                 continue
+            if isinstance(results[key], tuple):
+                self._exclude(*results[key], tasks)
+                continue
             for (index, digest, _), result in zip(tasks, results[key]):
                 self._note(index, digest, *result)
         self._show()
         return True
+
+    def _exclude(self, worker, why, tasks):
+        """`tasks` came back from a worker that cannot run them."""
+        if self._address is not None:
+            self._cluster.exclude(worker, why)
+            self._again += tasks
+            return
+        for index, digest, _ in tasks:  # the module or the folder was changed meanwhile
+            self._note(index, digest, "failed", 0.0, why)
 
     def _note(self, index, digest, state, seconds, message):
         self._deaths = self._losses = 0
@@ -303,13 +330,25 @@ class Runner:
         self._show()
 
     def _say_if_nobody_works(self):
-        if self._cluster.workers() > 0:
+        some = self._cluster.workers() > 0
+        unfit = self._cluster.unfit()
+        for why in sorted(set(unfit.values()) - self._said_unfit):
+            self._said_unfit.add(why)
+            _say(f"{why}; gets no task as long as that is so")
+        now = time.monotonic()
+        if some:
             self._nobody_since = None
+            self._said_that_nobody = False
         elif self._nobody_since is None:
-            self._nobody_since = time.monotonic()
-        elif time.monotonic() - self._nobody_since > _WITHOUT_WORKERS_S:
-            self._nobody_since = float("inf")
-            _say(f"scheduler {self._address}: has no worker; waiting for one, Ctrl-C stops")
+            self._nobody_since = now
+        elif unfit and now - self._nobody_since > _WITHOUT_FIT_WORKERS_S:
+            raise CampaignError(
+                f"scheduler {self._address}: no worker can run the tasks, {len(unfit)} cannot"
+            )
+        elif not unfit and now - self._nobody_since > _WITHOUT_WORKERS_S:
+            if not self._said_that_nobody:
+                self._said_that_nobody = True
+                _say(f"scheduler {self._address}: has no worker; waiting for one, Ctrl-C stops")
 
     def _begin_again(self):
         """After the death of a scheduler: all that was in flight, with a new one."""

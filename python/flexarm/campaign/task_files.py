@@ -3,6 +3,7 @@
     tasks/XX/HASH.json   result of a task; XX are the first two letters of HASH
     attempts/HASH        a line for each time that a worker began the task; gone when it has ended
     lock                 held by the campaign that writes here
+    run                  its name, while it runs: workers see by it that they see this folder
 """
 
 import contextlib
@@ -137,6 +138,27 @@ class Attempts:
     def end(self):
         with contextlib.suppress(FileNotFoundError):
             os.unlink(self._path)
+
+
+@contextlib.contextmanager
+def marked(folder, run):
+    """The folder has the name of the run that writes there, as long as the block lasts."""
+    path = os.path.join(folder, "run")
+    write_whole(path, run.encode())
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):
+            os.unlink(path)
+
+
+def is_run(folder, run):
+    """Whether this machine sees the folder in which `run` writes, under that path."""
+    try:
+        with open(os.path.join(folder, "run"), "rb") as stream:
+            return stream.read() == run.encode()
+    except OSError:
+        return False
 
 
 @contextlib.contextmanager

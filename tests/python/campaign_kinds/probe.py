@@ -1,4 +1,4 @@
-"""Tasks that do what a test asks for: nothing, sleep, fail, end their worker."""
+"""Tasks that do what a test asks for: nothing, sleep, compute, fail, end their worker."""
 
 import os
 import pathlib
@@ -20,18 +20,22 @@ class Tasks:
 
 
 def expand(table, folder):
-    """`count` tasks. [probe.NUMBER] has what task NUMBER does; each sleeps `each_s`."""
+    """`count` tasks. [probe.NUMBER] has what task NUMBER does; each sleeps `each_s`, and computes
+    `each_turns` turns of a loop."""
     count = table.whole("count", 1, 10_000_000)
     each_s = table.number("each_s", 0.0)
+    turns = table.whole("each_turns", 0, 10**12, 0)
     what = {}
     for number in range(min(count, 1000)):
-        if table.has(str(number)) or each_s:
+        if table.has(str(number)) or each_s or turns:
             own = table.table(str(number), {})
             what[str(number)] = {
                 "sleep_s": float(own.number("sleep_s", each_s)),
                 "fails": own.flag("fails", False),
                 "kills": own.whole("kills", 0, 100, 0),
             }
+            if turns:
+                what[str(number)]["turns"] = turns
             own.end()
     return Tasks(count, what)
 
@@ -49,6 +53,8 @@ def run(task, folder):
             os.kill(os.getpid(), signal.SIGKILL)
     if task.get("sleep_s"):
         time.sleep(task["sleep_s"])
+    for _ in range(task.get("turns", 0)):
+        pass
     if task.get("fails"):
         raise ValueError(f"task {task['number']} is to fail")
     return {"square": task["number"] ** 2}

@@ -202,8 +202,8 @@ Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
 }
 
 /// Inverse iteration, each mode kept M-orthogonal to those below it: two steps, and more while they
-/// still move the eigenvalue and move it less and less. Of a mass that is nearly singular, as of a
-/// crack close to the tip, the raw shapes keep few digits.
+/// still move the eigenvalue and move it less and less. Lanczos vectors keep few digits
+/// beside a mode that is far slower, but not so slow that it is taken out before (slow_modes).
 void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen::MatrixXd& raw,
             VibrationModes& modes) {
   constexpr int kSteps = 2;

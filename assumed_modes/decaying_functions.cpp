@@ -96,12 +96,23 @@ DecayingFunctions::Piece decaying(const StrainFunctions::Piece& from, Eigen::Ind
   return piece;
 }
 
-/// The smaller real part of rho with rho^4 - tension rho^2 + sigma^2 = 0.
-Real decay_rate(Real tension, Real sigma) {
+/// The smaller |Re rho| of the roots of rho^4 - tension rho^2 + s^2 = 0.
+Real decay_rate(Real tension, std::complex<Real> s) {
+  if (s == Real{0}) return 0;
   const Real half = tension / 2;
-  if (std::abs(half) < sigma) return std::sqrt((sigma + half) / 2);
-  if (half < 0) return 0;
-  return sigma / std::sqrt(half + std::sqrt(half * half - sigma * sigma));
+  const std::complex<Real> root = std::sqrt((half - s) * (half + s));
+  // The larger rho^2 is a sum without cancellation; their product is s^2.
+  const auto sum = half + root;
+  const auto difference = half - root;
+  const auto larger = std::abs(sum) >= std::abs(difference) ? sum : difference;
+  return std::min(std::sqrt(larger).real(), std::sqrt(s / larger * s).real());
+}
+
+constexpr int kPlaces = 32;
+
+/// The middle of a part of the beam.
+Real place(int k) {
+  return (k + Real{0.5}) / kPlaces;
 }
 
 Matrix tension_products(const DecayingFunctions::Piece& test, const DecayingFunctions::Piece& trial,
@@ -114,20 +125,19 @@ Matrix tension_products(const DecayingFunctions::Piece& test, const DecayingFunc
 
 }  // namespace
 
+Real mean_decay(const ScaledArm& arm, std::complex<Real> s) {
+  Real sum = 0;
+  for (int k = 0; k < kPlaces; ++k) sum += decay_rate(arm.tension(place(k)), s);
+  return sum / kPlaces;
+}
+
 Decay decay_of(const ScaledArm& arm, Real mean_rate) {
-  constexpr int kPlaces = 32;
-  const auto place = [](int k) { return (k + Real{0.5}) / kPlaces; };
-  const auto mean_at = [&](Real sigma) {
-    Real sum = 0;
-    for (int k = 0; k < kPlaces; ++k) sum += decay_rate(arm.tension(place(k)), sigma);
-    return sum / kPlaces;
-  };
   Real low = 0;
   Real high = 1;
-  while (mean_at(high) < mean_rate) high *= 2;
+  while (mean_decay(arm, high) < mean_rate) high *= 2;
   for (int step = 0; step < kPlaces; ++step) {
     const Real middle = (low + high) / 2;
-    (mean_at(middle) < mean_rate ? low : high) = middle;
+    (mean_decay(arm, middle) < mean_rate ? low : high) = middle;
   }
   // Least squares of a line: the slope is the first moment over that of xi - 1/2, 1/12.
   Real moment = 0;
@@ -135,7 +145,7 @@ Decay decay_of(const ScaledArm& arm, Real mean_rate) {
     moment += (place(k) - Real{0.5}) * decay_rate(arm.tension(place(k)), high) / kPlaces;
   }
   const Real rise = 12 * moment;
-  return {mean_at(high) - rise / 2, rise, high * high};
+  return {mean_decay(arm, high) - rise / 2, rise, high * high};
 }
 
 DecayingFunctions::DecayingFunctions(const StrainFunctions& functions, const ScaledArm& arm,

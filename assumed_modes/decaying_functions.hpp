@@ -4,6 +4,7 @@
 #include "assumed_modes/scaled_arm.hpp"
 #include "assumed_modes/strain_functions.hpp"
 
+#include <complex>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -19,9 +20,12 @@ struct Decay {
   Decay reversed() const { return {-rate_at_root, -rise, sigma_squared}; }
 };
 
-/// The decay of mean rate r, fitted to that of the arm's bending waves: on a beam with the tension
-/// P(xi), solutions exp(-rho xi) have rho^4 - P rho^2 + sigma^2 = 0, and what is smaller of the two
-/// Re rho is what reaches the tip.
+/// The mean rate at which the arm's bending waves of frequency s [omega scale] decay: on a beam
+/// with the tension P(xi), solutions exp(-rho xi) have rho^4 - P rho^2 + s^2 = 0, and what is
+/// smaller of the two |Re rho| is what reaches the tip. 0 on the imaginary axis.
+Real mean_decay(const ScaledArm& arm, std::complex<Real> s);
+
+/// The decay of mean rate r, fitted to that of the arm's bending waves at the real s of that mean.
 Decay decay_of(const ScaledArm& arm, Real mean_rate);
 
 /// Strain functions times exp(-w): y = exp(-w) p with p from the displacements of

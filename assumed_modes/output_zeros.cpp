@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <optional>
 
 namespace flexarm::assumed_modes {
@@ -39,6 +41,14 @@ int needed_functions(Real mean_rate) {
   return kWithoutDecay + static_cast<int>(std::ceil(mean_rate));
 }
 
+/// Whether functions of a mean rate of decay leave digits of a root: its condition number is
+/// exp(|kappa - rate|). What is beyond this is a root of other equations, and may change little all
+/// the same: a suspended mass swings at its own frequency on whatever beam rounding has left.
+bool has_digits(const ScaledArm& arm, std::complex<Real> root, Real rate, double zero_change) {
+  const Real condition = std::exp(std::abs(mean_decay(arm, root) - rate));
+  return condition * std::numeric_limits<Real>::epsilon() <= zero_change;
+}
+
 /// A model with this many functions or more is given those that a rate needs. A coarser one stays
 /// as it is, and goes without the rates that it does not resolve.
 constexpr int kFine = 28;
@@ -52,9 +62,16 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
       options.basis == Basis::legendre && sensor.kind != arm::SensorKind::tip_deflection;
   TrustedZeros zeros(options.zero_change);
   bool converged = true;
-  const auto add = [&](const PencilZeros& found, const std::array<PencilZeros, 2>& checks) {
+  const auto add = [&](const PencilZeros& found, const std::array<PencilZeros, 2>& checks,
+                       Real rate) {
     converged = converged && found.converged && checks[0].converged && checks[1].converged;
-    zeros.add(checked_roots(found, checks));
+    auto roots = checked_roots(found, checks);
+    if (rate > 0) {
+      std::erase_if(roots, [&](const CheckedRoot& root) {
+        return !has_digits(beyond, root.s, rate, options.zero_change);
+      });
+    }
+    zeros.add(roots);
   };
   const auto without_decay = [&](int more) {
     const AdmissibleFunctions functions(options.basis, beyond, options.functions, more);
@@ -79,9 +96,10 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
   };
 
   const PencilZeros slow = without_decay(0);
-  add(slow, may_decay
-                ? checks_of(0)
-                : std::array{without_decay(kMoreFunctions[0]), without_decay(kMoreFunctions[1])});
+  add(slow,
+      may_decay ? checks_of(0)
+                : std::array{without_decay(kMoreFunctions[0]), without_decay(kMoreFunctions[1])},
+      0);
   const Real resolved = options.functions - needed_functions(0);
   const Real largest_allowed =
       options.functions >= kFine ? kLargestRate : std::min(kLargestRate, resolved);
@@ -89,7 +107,7 @@ arm::ZeroSet output_zeros(const arm::Sensor& sensor, const arm::LinearArm& arm,
   for (Real rate = kFirstRate; may_decay && rate <= largest_allowed && !zeros.are_settled(count);
        rate += kRateStep) {
     largest_rate = rate;
-    add(decaying(rate, 0), checks_of(rate));
+    add(decaying(rate, 0), checks_of(rate), rate);
   }
 
   arm::ZeroSet result = zeros.zero_set(count, arm::omega_scale_rad_per_s(arm));

@@ -82,6 +82,7 @@ std::string reason_against(const Candidate& candidate, const std::vector<Candida
 std::size_t sort_out(const std::vector<Candidate>& candidates, std::size_t complete, int count,
                      double agreement, arm::ZeroSet& zeros) {
   zeros.s_rad_per_s.clear();
+  zeros.relative_change.clear();
   zeros.rejected.clear();
   std::size_t looked_at = 0;
   for (const Candidate& candidate : candidates) {
@@ -91,6 +92,7 @@ std::size_t sort_out(const std::vector<Candidate>& candidates, std::size_t compl
     ++looked_at;
     if (reason.empty()) {
       zeros.s_rad_per_s.push_back(candidate.s);
+      zeros.relative_change.push_back(candidate.change);
     } else {
       zeros.rejected.push_back({candidate.s, candidate.change, std::move(reason)});
     }

@@ -47,9 +47,10 @@ struct JudgedZeros {
 ///
 ///     |s - s'| <= agreement |s'|   and   |s' - s''| <= max(|s - s'|/10, agreement |s''|/1000),
 ///
-/// no nearer root has the same counterpart, and no root is missing before it. `zeros.count`: roots
-/// found, trusted or not, up to the last that was looked at, beside the number there are by the
-/// argument principle. Where that is another number, `summary.converged` is false.
+/// no nearer root has the same counterpart, and no root is missing before it. |s - s'|/|s'| is
+/// stated as its relative change. `zeros.count`: roots found, trusted or not, up to the last that
+/// was looked at, beside the number there are by the argument principle. Where that is another
+/// number, `summary.converged` is false.
 JudgedZeros judge(const PencilRoots& roots, const CheckedNumerators& numerators, int count,
                   double agreement);
 

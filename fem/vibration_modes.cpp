@@ -201,10 +201,14 @@ Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
   return shapes;
 }
 
-/// Two steps of inverse iteration, each mode kept M-orthogonal to those below it.
+/// Inverse iteration, each mode kept M-orthogonal to those below it: two steps, and more while they
+/// still move the eigenvalue and move it less and less. Lanczos vectors keep few digits
+/// beside a mode that is far slower, but not so slow that it is taken out before (slow_modes).
 void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen::MatrixXd& raw,
             VibrationModes& modes) {
   constexpr int kSteps = 2;
+  constexpr int kMostSteps = 40;
+  constexpr double kStill = 1e-13;
   const Eigen::Index count = raw.cols();
   modes.omega_squared.resize(count);
   modes.shapes.resize(model.size(), count);
@@ -214,8 +218,11 @@ void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen
     Eigen::VectorXd u = raw.col(j);
     u /= std::sqrt(u.dot(model.mass() * u));
     double omega_squared = 0.0;
-    double change = 0.0;
-    for (int step = 0; step < kSteps; ++step) {
+    double change = std::numeric_limits<double>::infinity();
+    double previous_change = change;
+    const auto is_moving = [&] { return change > kStill && change < previous_change; };
+    for (int step = 0; step < kSteps || (step < kMostSteps && is_moving()); ++step) {
+      previous_change = change;
       Deformed next = solve(model.mass() * u);
       const Eigen::VectorXd below = momenta.leftCols(j).transpose() * next.u;
       next.u -= modes.shapes.leftCols(j) * below;

@@ -15,6 +15,7 @@
 #include <map>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace flexarm::random_arms {
@@ -81,14 +82,20 @@ double distance(const Agreement& agreement) {
 void print_worst(const std::vector<Agreement>& all, const RunOptions& options) {
   std::vector<std::size_t> order(all.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) { return distance(all[k]); });
-  fmt::print("\nworst\n");
-  for (std::size_t k = 0; k < std::min(options.shown, order.size()); ++k) {
+  const auto disagrees = [&](std::size_t k) { return all[k].outcome == Outcome::disagree; };
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t k) {
+    return std::pair(disagrees(k), distance(all[k]));
+  });
+  const auto disagreeing = static_cast<std::size_t>(std::ranges::count_if(order, disagrees));
+  fmt::print("\nthose that disagree, and the worst of the others\n");
+  for (std::size_t k = 0; k < std::min(disagreeing + options.shown, order.size()); ++k) {
     const Agreement& each = all[order[k]];
     if (!each.worst) break;
     const std::uint64_t index = options.first + order[k];
-    fmt::print("arm {}{}: {} of {} and {}, {:.1e}{}\n", index,
-               each.outcome == Outcome::stated ? " (stated)" : "", each.worst->quantity,
+    const char* outcome = each.outcome == Outcome::stated     ? " (stated)"
+                          : each.outcome == Outcome::disagree ? " (DISAGREES)"
+                                                              : "";
+    fmt::print("arm {}{}: {} of {} and {}, {:.1e}{}\n", index, outcome, each.worst->quantity,
                each.worst->first, each.worst->second, each.worst->distance,
                each.alone.empty() ? "" : "; alone: " + each.alone);
     if (options.out.empty()) continue;
@@ -113,7 +120,8 @@ int run(int argc, char** argv) {
   app.add_option("--first", options.first, "Index of the first");
   app.add_option("--seed", options.seed, "Seed of the sequence");
   app.add_option("--jobs", options.jobs, "Threads");
-  app.add_option("--worst", options.shown, "How many of the worst are listed");
+  app.add_option("--worst", options.shown,
+                 "How many of the worst are listed beside those that disagree");
   app.add_option("--out", options.out, "Folder for the arm files of those");
   CLI11_PARSE(app, argc, argv);
   const auto all = computed(options);

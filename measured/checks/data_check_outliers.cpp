@@ -169,23 +169,22 @@ std::optional<double> size_of_spike(const Prediction& prediction, std::size_t at
   return std::nullopt;
 }
 
-/// What jumps of the torque do to the residuals.
+/// What jumps of the torque, and of friction, do to the residuals.
 struct Shaking {
-  std::vector<bool> samples;  ///< shaken ones
+  std::vector<bool> samples;  ///< shaken by the torque
+  std::vector<bool> stops;    ///< shaken by friction
   std::vector<double> least;  ///< size of a spike there, by signal
 
   double least_at(std::size_t signal, std::size_t sample) const {
-    return samples[sample] ? least[signal] : 0.0;
+    return samples[sample] || stops[sample] ? least[signal] : 0.0;
   }
 };
 
-/// Samples that a jump of the torque, or of friction, shakes. A torque that is not known may jump
-/// anywhere.
-std::vector<bool> shaken_samples(std::span<const CheckedSignal> signals,
-                                 const std::vector<bool>& usable, const Eigen::VectorXd& torque) {
-  const std::size_t samples = signals[0].values.size();
-  if (!usable[0]) return std::vector<bool>(samples, true);
-  std::vector<bool> shaken = samples_near_stops(signals, usable, kAround);
+/// Samples that a jump of the torque shakes. One that is not known may jump anywhere.
+std::vector<bool> shaken_samples(const Eigen::VectorXd& torque, bool torque_is_known) {
+  const auto samples = static_cast<std::size_t>(torque.size());
+  std::vector<bool> shaken(samples, !torque_is_known);
+  if (!torque_is_known) return shaken;
   const auto shake = [&](std::size_t from) {
     for (std::size_t k = from; k < std::min(samples, from + kAround + 1); ++k) shaken[k] = true;
   };
@@ -225,6 +224,7 @@ void repair_ends(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& 
   const auto reverse = [&] {
     for (auto& signal : values) signal.reverseInPlace();
     std::reverse(shaking.samples.begin(), shaking.samples.end());
+    std::reverse(shaking.stops.begin(), shaking.stops.end());
   };
   repair_begin(values, usable, rests, shaking, options, found);
   reverse();
@@ -339,7 +339,8 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const std::vector<bool>& usable,
                                       const DataCheckOptions& options, bool ends_are_sound) {
   std::vector<Eigen::VectorXd> values = standardised(signals);
-  Shaking shaking{shaken_samples(signals, usable, values[0]), {}};
+  Shaking shaking{
+      shaken_samples(values[0], usable[0]), samples_near_stops(signals, usable, kAround), {}};
   for (const auto& signal : signals) {
     // An angle and a displacement do not jump.
     const bool is_smooth =

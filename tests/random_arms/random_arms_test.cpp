@@ -61,8 +61,8 @@ arm::Arm filed_arm(const std::filesystem::path& file) {
 const std::filesystem::path kFolder = FLEXARM_SOURCE_DIR "/tests/random_arms";
 
 // Heavy payloads, axial tension, soft roots: zeros of the tip that a dense eigenproblem loses. A
-// mass suspended at the tip: one that it finds twice. A crack at the tip: shapes of which it leaves
-// few digits.
+// mass suspended at the tip: one that it finds twice. A soft root: a first mode so slow that
+// Lanczos vectors keep few digits of the others.
 TEST(HardArms, Agree) {
   int count = 0;
   for (const auto& file : std::filesystem::directory_iterator(kFolder / "hard")) {

@@ -29,10 +29,10 @@ std::string_view unit_shown(const CheckedSignal& signal) {
 /// `rounding` is the step in which values are written: a change is off by as much.
 template <class Change>
 bool fades(const Change& at, double rounding) {
-  const auto smaller = [&](int near, int far, double factor) {
+  const auto smaller = [&](std::size_t near, std::size_t far, double factor) {
     return std::abs(at(near)) <= factor * std::abs(at(far)) + (1.0 + factor) * rounding;
   };
-  const auto alike = [&](int near, int far) {
+  const auto alike = [&](std::size_t near, std::size_t far) {
     const double product = at(near) * at(far);
     return product > 0.0 || std::abs(product) <= rounding * rounding;
   };

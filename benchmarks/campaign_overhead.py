@@ -111,6 +111,5 @@ def main():
         _print_efficiency(arguments.computing, "compute", start_s, each_turns=turns)
 
 
-
 if __name__ == "__main__":
     main()

@@ -237,6 +237,7 @@ class HumSearch {
         usable_(usable),
         period_s_(period_s),
         mains_Hz_(mains_Hz),
+        has_pulses_(has_few_levels(signals[0].values)),
         band_(signals[0].values.size(), period_s, alias_Hz(mains_Hz, period_s)) {}
 
   void search(Hum& hum) {
@@ -246,7 +247,7 @@ class HumSearch {
     auto torque_line = candidate_of(0, torque);
     // Friction answers a torque with a line here by others.
     const bool is_given = torque_line && !may_hum(*torque_line);
-    if (is_given && (!has_few_levels(signals_[0].values) || is_clear(*torque_line))) return;
+    if (is_given && (!has_pulses_ || is_clear(*torque_line))) return;
     if (is_given) torque_line.reset();
     auto found = lines_of_channels(torque);
     if (torque_line) {
@@ -268,7 +269,7 @@ class HumSearch {
         found[0] = torque_line;
       }
     }
-    if (has_few_levels(signals_[0].values) && is_shared(found)) return;
+    if (has_pulses_ && is_shared(found)) return;
     for (std::size_t i = 0; i < signals_.size(); ++i) {
       if (!found[i]) continue;
       hum.findings.push_back(hum_finding(signals_[i], *found[i], mains_Hz_, band_.centre_Hz()));
@@ -320,8 +321,7 @@ class HumSearch {
   bool is_hum(std::size_t signal, const HumLine& line) const {
     const double reach_Hz = std::max(kMainsTolerance_Hz, kGridLines / band_.duration_s());
     // Steps of a torque excite modes of the tip's acceleration beyond the smooth gain.
-    const bool is_shaken = signals_[signal].is(arm::SensorKind::tip_acceleration) &&
-                           has_few_levels(signals_[0].values);
+    const bool is_shaken = signals_[signal].is(arm::SensorKind::tip_acceleration) && has_pulses_;
     const double least = is_shaken ? kLeastBesideSteps : kLeastAmplitude;
     return is_clear(line) && std::abs(line.amplitude) > least * signals_[signal].deviation &&
            std::abs(line.frequency_Hz - band_.centre_Hz()) <= reach_Hz && line.is_constant();
@@ -343,8 +343,7 @@ class HumSearch {
   }
 
   bool may_hum(const HumLine& line) const {
-    return !has_few_levels(signals_[0].values) &&
-           !is_of_lines(signals_[0], std::abs(line.amplitude), period_s_);
+    return !has_pulses_ && !is_of_lines(signals_[0], std::abs(line.amplitude), period_s_);
   }
 
   void subtract(const HumLine& line, std::vector<double>& values) const {
@@ -358,6 +357,7 @@ class HumSearch {
   const std::vector<bool>& usable_;
   double period_s_;
   double mains_Hz_;
+  bool has_pulses_;  ///< the torque is made of levels
   HumBand band_;
   BandLines lines_;
   std::vector<double> grid_Hz_;

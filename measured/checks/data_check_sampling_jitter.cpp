@@ -177,7 +177,8 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
   const Eigen::MatrixXd usual = residuals.cwiseMin(kMostResidual).cwiseMax(-kMostResidual);
   Eigen::MatrixXd covariance = usual * usual.transpose() / static_cast<double>(rows.size());
   covariance.diagonal().array() += kSingular * covariance.trace() / static_cast<double>(channels);
-  const Eigen::MatrixXd seen = covariance.inverse() * derivatives;
+  const Eigen::MatrixXd inverse = covariance.inverse();
+  const Eigen::MatrixXd seen = inverse * derivatives;
   const Eigen::ArrayXd g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
   const Eigen::ArrayXd along = seen.cwiseProduct(residuals).colwise().sum().transpose();
   const Eigen::ArrayXd u = along.square() / g.max(1e-300);
@@ -185,7 +186,7 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
   // Of jitter nothing grows across the derivatives, of an arm that the regression misses all does.
   double beside = 0.0;
   if (channels > 1) {
-    const Eigen::MatrixXd whitened = covariance.inverse() * residuals;
+    const Eigen::MatrixXd whitened = inverse * residuals;
     const Eigen::ArrayXd all = whitened.cwiseProduct(residuals).colwise().sum().transpose();
     beside = growth_of((all - u) / static_cast<double>(channels - 1), g, 1).slope;
   }

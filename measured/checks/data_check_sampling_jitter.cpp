@@ -191,7 +191,9 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
     beside = growth_of((all - u) / static_cast<double>(channels - 1), g, 1).slope;
   }
   const double rms = growth.rms();
-  if (growth.slope - kAcross * std::max(0.0, beside) <= kLeastEvidence * growth.error) return {};
+  // Where g is constant the slope is not a number.
+  const double evidence = growth.slope - kAcross * std::max(0.0, beside);
+  if (!(evidence > kLeastEvidence * growth.error)) return {};
   const bool is_alone = channels == 1;
   const double least = std::max(
       has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods,
@@ -201,7 +203,7 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
   }
   // Noise may change with the motion over the record, as under a chirp.
   const Growth within = growth_of(u, g, kTimeBlocks);
-  if (within.slope <= kLeastEvidenceInBlocks * within.error ||
+  if (!(within.slope > kLeastEvidenceInBlocks * within.error) ||
       within.rms() < kLeastShareInBlocks * rms) {
     return {};
   }

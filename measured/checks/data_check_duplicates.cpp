@@ -76,13 +76,12 @@ double chance_of_repeat(std::span<const CheckedSignal> signals, const CheckedSig
   const std::size_t reach = kSurroundings + 2 * block.count;
   const std::size_t from = block.first > reach ? block.first - reach : block.count;
   const std::size_t to = std::min(x.size(), block.first + reach);
-  std::vector<double> bends;
   std::size_t repeats = 0;
   for (std::size_t k = from; k < to; ++k) {
-    if (k >= 2) bends.push_back(x[k] - 2.0 * x[k - 1] + x[k - 2]);
     if (x[k] == x[k - block.count] && !is_repeated(signals, k, block.count)) ++repeats;
   }
-  const double noise = robust_deviation(bends) / std::sqrt(6.0);
+  const std::size_t first = from > 2 ? from - 2 : 0;
+  const double noise = reading_noise(x.subspan(first, to - first));
   if (noise <= 0.0) return 1.0;
   return std::min(1.0, std::max(kDensity * step / noise,
                                 static_cast<double>(repeats) / static_cast<double>(to - from)));

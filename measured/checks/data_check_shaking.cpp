@@ -30,7 +30,7 @@ std::vector<Index> torque_jumps(const Eigen::VectorXd& torque) {
 
 std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
                                      const std::vector<bool>& usable, std::size_t reach) {
-  constexpr Eigen::Index kMean = 5;
+  constexpr std::size_t kMean = 5;
   constexpr double kNoises = 4.0;
   constexpr double kLeastMotion = 0.03;  // standard deviations
   constexpr double kMostShaken = 0.25;   // of the samples
@@ -47,16 +47,10 @@ std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
   const bool is_angle = hub->is(arm::SensorKind::hub_angle);
   std::vector<double> motion;
   for (std::size_t k = 0; k + kMean < samples; ++k) {
-    double sum = 0.0;
-    for (std::size_t j = k; j < k + kMean; ++j) sum += hub->values[j];
     motion.push_back(is_angle ? hub->values[k + kMean] - hub->values[k]
-                              : sum / static_cast<double>(kMean));
+                              : mean(hub->values.subspan(k, kMean)));
   }
-  std::vector<double> bends;
-  for (std::size_t k = 2; k < samples; ++k) {
-    bends.push_back(hub->values[k] - 2.0 * hub->values[k - 1] + hub->values[k - 2]);
-  }
-  const double noise = robust_deviation(bends) / std::sqrt(6.0) *
+  const double noise = reading_noise(hub->values) *
                        (is_angle ? std::sqrt(2.0) : 1.0 / std::sqrt(static_cast<double>(kMean)));
   const double rest = std::max(kNoises * noise, kLeastMotion * standard_deviation(motion));
   const auto state = [&](double value) { return value > rest ? 1 : (value < -rest ? -1 : 0); };

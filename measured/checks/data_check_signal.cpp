@@ -55,6 +55,14 @@ std::vector<EqualRun> equal_runs(std::span<const double> values, std::size_t lea
   return runs;
 }
 
+double reading_noise(std::span<const double> values) {
+  std::vector<double> bends;
+  for (std::size_t k = 2; k < values.size(); ++k) {
+    bends.push_back(values[k] - 2.0 * values[k - 1] + values[k - 2]);
+  }
+  return robust_deviation(bends) / std::sqrt(6.0);
+}
+
 std::optional<double> lattice_step(std::span<const double> values, double least_step) {
   constexpr double kDigits = 3e-7;  // half a unit of the seventh digit, and rounding of a product
   constexpr double kOff = 0.02;     // of a step

@@ -39,6 +39,10 @@ struct EqualRun {
 /// Runs of `least` equal values or more, in order.
 std::vector<EqualRun> equal_runs(std::span<const double> values, std::size_t least);
 
+/// Standard deviation of the white noise of readings, by their second differences: what is smooth
+/// from one sample to the next has no part in it.
+double reading_noise(std::span<const double> values);
+
 /// The step of which all values are whole multiples but for one offset, to a fiftieth of a step;
 /// empty where there is none as large as `least_step`, or fewer than three values.
 std::optional<double> lattice_step(std::span<const double> values, double least_step);

@@ -21,6 +21,7 @@ bool has_few_levels(std::span<const double> torque);
 
 /// Whether a run of equal values is entered and left as a hub comes to rest and leaves it: with
 /// changes that fade like 1/2, 3/2, 5/2 of one size. The ends of the record say nothing against it.
+/// `rounding`: the step in which values are written, by which a change may be off.
 bool is_restful(std::span<const double> values, const EqualRun& run, double rounding = 0.0);
 
 /// A coarse step. `floor_power` has for each signal the power, in its unit squared, of white noise

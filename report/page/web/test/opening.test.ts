@@ -45,7 +45,7 @@ test("the contents lead to each section", () =>
 
 // The processor's time of the page's process, all of its threads, from the start until the picture is
 // drawn: what other programs run beside does not count. With a core of its own it takes less time.
-test("opens in under a second with six runs of 4,000 samples", async () => {
+test("opens six runs of 4,000 samples in the time of seven empty pages", async () => {
   let opening_s = NaN;
   let empty_s = NaN;
   const openDiagnosis = async (page: Page) => {
@@ -53,7 +53,10 @@ test("opens in under a second with six runs of 4,000 samples", async () => {
     opening_s = await processTime_s(page);
   };
   await opened(diagnosis, openDiagnosis, {}, notePictureDrawn);
-  await opened(emptyPage(), async (page) => { empty_s = await processTime_s(page); }, {});
+  const openEmpty = async (page: Page) => {
+    empty_s = await processTime_s(page);
+  };
+  await opened(emptyPage(), openEmpty, {});
   const most_s = kMostOpening_emptyPages * empty_s;
   assert.ok(opening_s > 0 && opening_s < most_s, `opened in ${opening_s} s, an empty page in ${empty_s} s`);
 });

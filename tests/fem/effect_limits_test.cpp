@@ -7,6 +7,7 @@
 #include "tests/fem/constants.hpp"
 #include "tests/reference/reference_cases.hpp"
 
+#include <Eigen/Core>
 #include <boost/math/special_functions/bessel.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -139,6 +140,27 @@ TEST(EffectLimits, OfAStiffHubSpringIsTheClampedArm) {
   EXPECT_NEAR(std::sqrt(held.lowest_omega_squared_rad2_per_s2), clamped[0].imag(), kOrder);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(held.omega_rad_per_s[i] / clamped[i + 1].imag(), 1.0, kOrder);
+  }
+}
+
+TEST(EffectLimits, ModesBesideThatOfAHeavyHubOnASoftDriveAreOrthogonalToIt) {
+  arm::Arm arm = unit_arm();
+  arm.hub.inertia_kg_m2 = 1e9;
+  arm.payload.mass_kg = 3e3;
+  effects::put(arm, "drive_compliance", {{"stiffness", 2e-5}, {"rotor_share", 0.003}});
+  constexpr int kModes = 10;
+  for (const int degree : {11, 12, 13, 14, 15}) {
+    const Discretisation model(arm::linear_arm(arm), {}, degree);
+    for (const HubSupport support : {HubSupport::clamped, HubSupport::free}) {
+      for (const Eigensolver eigensolver : {Eigensolver::dense, Eigensolver::lanczos}) {
+        const VibrationModes modes = vibration_modes(model, support, kModes, 1e-12, eigensolver);
+        EXPECT_TRUE(modes.converged);
+        const Eigen::MatrixXd products = modes.shapes.transpose() * model.mass() * modes.shapes;
+        EXPECT_LE((products - Eigen::MatrixXd::Identity(kModes, kModes)).cwiseAbs().maxCoeff(),
+                  50.0 * kEpsilon)
+            << degree;
+      }
+    }
   }
 }
 

@@ -22,9 +22,17 @@ struct Hum {
 /// by least squares. W1 and W2 are those of lines whose amplitude grows with time and its square.
 /// Hum: |a| > 8 standard errors and 0.03 standard deviations of the channel, and Re(b/a), |c/a|
 /// below 0.25 beside their own errors, so that a resonance that rings or is driven is none. Im(b/a)
-/// corrects f. The torque has no first term. Hum of a torque is claimed only where it is not made
-/// of few levels or of other lines, and where no channel has a line that this one explains; where
-/// such a torque has a line, none is claimed. Beside pulses it is claimed of one channel alone.
+/// corrects f. The torque has no first term.
+///
+/// Beside a resonance, friction of the hub or pulses the gain of the torque is not that smooth. The
+/// ratio to another channel Y is: it takes the place of the first term, with (d0 + d1 L) U beside
+/// it. A line of 0.05 standard deviations is of X and not of Y if no other signal in the place of Y
+/// explains it, and one at least explains the line that Y would have instead.
+///
+/// Hum of the torque is claimed only where it is not made of few levels or of other lines. It
+/// stands out of the torque and no channel answers it, or several signals give it the same
+/// amplitude: the torque's own a, and -a/g0 of channels. Where a torque is made of lines and has
+/// one here, channels are compared with each other alone, likewise beside pulses.
 Hum check_hum(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
               double period_s);
 

@@ -174,9 +174,13 @@ struct Shaking {
   std::vector<bool> samples;  ///< shaken by the torque
   std::vector<bool> stops;    ///< shaken by friction
   std::vector<double> least;  ///< size of a spike there, by signal
+  std::vector<double> least_elsewhere;
 
+  /// A hub that a jump of the torque starts or stops is shaken by both.
   double least_at(std::size_t signal, std::size_t sample) const {
-    return samples[sample] || stops[sample] ? least[signal] : 0.0;
+    constexpr double kBoth = 2.0;
+    if (samples[sample] && stops[sample]) return kBoth * least[signal];
+    return samples[sample] || stops[sample] ? least[signal] : least_elsewhere[signal];
   }
 };
 
@@ -340,12 +344,15 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
                                       const DataCheckOptions& options, bool ends_are_sound) {
   std::vector<Eigen::VectorXd> values = standardised(signals);
   Shaking shaking{
-      shaken_samples(values[0], usable[0]), samples_near_stops(signals, usable, kAround), {}};
+      shaken_samples(values[0], usable[0]), samples_near_stops(signals, usable, kAround), {}, {}};
+  const bool stops_are_known = hub_signal(signals, usable) != nullptr;
   for (const auto& signal : signals) {
     // An angle and a displacement do not jump.
     const bool is_smooth =
         signal.is(arm::SensorKind::hub_angle) || signal.is(arm::SensorKind::tip_displacement);
     shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
+    const bool is_shaken_unseen = signal.is(arm::SensorKind::tip_acceleration) && !stops_are_known;
+    shaking.least_elsewhere.push_back(is_shaken_unseen ? options.least_unseen_stop_spike : 0.0);
   }
   std::vector<bool> rests;
   for (const auto& signal : signals) {

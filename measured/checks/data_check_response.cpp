@@ -83,9 +83,10 @@ std::vector<DataFinding> check_response(const Comparison& comparison) {
                                     "sensor: the actual input is unknown",
                                     comparison.signals[0].deviation)});
   }
-  // An arm at rest moves no sensor; one sensor alone has only the torque to answer.
+  // An arm at rest moves no sensor. One sensor alone has only the torque to answer, from which
+  // friction and a record of few blocks may part it; it is dead if it is noise besides.
   const auto others_respond = [&](std::size_t self) {
-    if (count == 2) return comparison.usable[0] && !torque_is_noise;
+    if (count == 2) return comparison.usable[0] && !torque_is_noise && is_white(comparison, self);
     for (std::size_t i = 1; i < count; ++i) {
       if (i != self && closest[i] >= kRelated) return true;
     }

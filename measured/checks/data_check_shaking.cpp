@@ -36,12 +36,7 @@ std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
   constexpr double kMostShaken = 0.25;   // of the samples
   const std::size_t samples = signals[0].values.size();
   const std::vector<bool> none(samples, false);
-  const CheckedSignal* hub = nullptr;
-  for (std::size_t i = 1; i < signals.size(); ++i) {
-    if (!usable[i]) continue;
-    if (signals[i].is(arm::SensorKind::hub_angle) && hub == nullptr) hub = &signals[i];
-    if (signals[i].is(arm::SensorKind::hub_velocity)) hub = &signals[i];
-  }
+  const CheckedSignal* hub = hub_signal(signals, usable);
   if (hub == nullptr) return none;
   // By mean differences of an angle.
   const bool is_angle = hub->is(arm::SensorKind::hub_angle);

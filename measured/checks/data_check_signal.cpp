@@ -44,6 +44,16 @@ std::vector<double> without_hum(const CheckedSignal& signal, double period_s) {
   return {left.begin(), left.end()};
 }
 
+const CheckedSignal* hub_signal(std::span<const CheckedSignal> signals,
+                                const std::vector<bool>& usable) {
+  for (const auto kind : {arm::SensorKind::hub_velocity, arm::SensorKind::hub_angle}) {
+    for (std::size_t i = 1; i < signals.size(); ++i) {
+      if (usable[i] && signals[i].is(kind)) return &signals[i];
+    }
+  }
+  return nullptr;
+}
+
 std::vector<EqualRun> equal_runs(std::span<const double> values, std::size_t least) {
   std::vector<EqualRun> runs;
   for (std::size_t first = 0; first < values.size();) {

@@ -30,6 +30,10 @@ std::vector<CheckedSignal> signals_of(const TimeRecord& record, std::size_t firs
 /// the sampling cannot show 60 Hz.
 std::vector<double> without_hum(const CheckedSignal& signal, double period_s);
 
+/// The usable signal of the hub's motion: its velocity, else its angle; null without one.
+const CheckedSignal* hub_signal(std::span<const CheckedSignal> signals,
+                                const std::vector<bool>& usable);
+
 /// Equal values one after the other.
 struct EqualRun {
   std::size_t first = 0;

@@ -81,10 +81,9 @@ Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const doub
 
 std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
                                              const DescribedArm& arm) {
-  auto at = comparison.find(SensorKind::hub_velocity);
-  if (!at) at = comparison.find(SensorKind::hub_angle);
-  if (!at || !comparison.usable[0]) return {};
-  const CheckedSignal& hub = comparison.signals[*at];
+  const CheckedSignal* measured = hub_signal(comparison.signals, comparison.usable);
+  if (measured == nullptr || !comparison.usable[0]) return {};
+  const CheckedSignal& hub = *measured;
   const CheckedSignal& torque = comparison.signals[0];
   const double period_s = comparison.transforms.period_s;
   const auto answer = [&](std::span<const double> torque_N_m) {

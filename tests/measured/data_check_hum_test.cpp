@@ -1,0 +1,61 @@
+#include "arm/sensor.hpp"
+#include "measured/checks/data_check.hpp"
+#include "tests/measured/data_check_cases.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace flexarm::measured {
+namespace {
+
+/// Adds a line of 50 Hz, of a share of the signal's standard deviation.
+void add_hum(std::vector<double>& values, double period_s, double share) {
+  const double amplitude = share * deviation(values);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] += amplitude * std::cos(100.0 * std::numbers::pi * period_s * static_cast<double>(k));
+  }
+}
+
+std::vector<std::string> channels_with_hum(const PlantedFault& run) {
+  std::vector<std::string> channels;
+  for (const auto& finding : check_data(run.record, run.options)) {
+    if (finding.fault == Fault::hum) channels.push_back(finding.channel);
+  }
+  return channels;
+}
+
+// The torque leaves lines of pulses and friction in all channels, each of which explains the
+// others.
+class HumOfAChannel : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(HumOfAChannel, IsThatOfTheOneWhichNoOtherExplains) {
+  const std::size_t channels = clean(GetParam()).record.channels.size();
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    PlantedFault run = clean(GetParam());
+    auto& [sensor, values, left_out] = run.record.channels[channel];
+    add_hum(values, run.record.time_s[1] - run.record.time_s[0], 0.3);
+    EXPECT_THAT(channels_with_hum(run), testing::ElementsAre(arm::to_string(sensor)))
+        << run.description;
+  }
+}
+
+constexpr std::uint64_t kPulses = 39;
+constexpr std::uint64_t kMultisineWithFriction = 52;
+constexpr std::uint64_t kRandom = 31;
+
+INSTANTIATE_TEST_SUITE_P(Hum, HumOfAChannel, testing::Values(kPulses, kMultisineWithFriction));
+
+TEST(Hum, OfTheTorqueIsNotThatOfTheChannelsThatMissIt) {
+  PlantedFault run = clean(kRandom);
+  add_hum(run.record.torque_N_m, run.record.time_s[1] - run.record.time_s[0], 0.5);
+  EXPECT_THAT(channels_with_hum(run), testing::ElementsAre("torque")) << run.description;
+}
+
+}  // namespace
+}  // namespace flexarm::measured

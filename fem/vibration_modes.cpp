@@ -206,8 +206,8 @@ Eigen::MatrixXd iterated_shapes(const Discretisation& model, HubSupport support,
 /// beside a mode that is far slower, but not so slow that it is taken out before (slow_modes).
 ///
 /// A step multiplies what is left of a mode i below by (omega_j/omega_i)^2, which is 10^19 beside a
-/// heavy hub on a soft drive. What rounding leaves of mode i in the projected response would then
-/// grow from step to step. So the loads are projected as well, before the solution.
+/// heavy hub behind a compliant drive. What rounding leaves of mode i in the projected response
+/// would then grow from step to step. So the loads are projected as well, before the solution.
 void refine(const Discretisation& model, const FlexibleSolve& solve, const Eigen::MatrixXd& raw,
             VibrationModes& modes) {
   constexpr int kSteps = 2;

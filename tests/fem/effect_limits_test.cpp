@@ -143,7 +143,7 @@ TEST(EffectLimits, OfAStiffHubSpringIsTheClampedArm) {
   }
 }
 
-TEST(EffectLimits, ModesBesideThatOfAHeavyHubOnASoftDriveAreOrthogonalToIt) {
+TEST(EffectLimits, ModesBesideThatOfAHeavyHubBehindACompliantDriveAreOrthogonalToIt) {
   arm::Arm arm = unit_arm();
   arm.hub.inertia_kg_m2 = 1e9;
   arm.payload.mass_kg = 3e3;

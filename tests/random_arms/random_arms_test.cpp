@@ -62,8 +62,8 @@ const std::filesystem::path kFolder = FLEXARM_SOURCE_DIR "/tests/random_arms";
 
 // Heavy payloads, axial tension, soft roots: zeros of the tip that a dense eigenproblem loses. A
 // mass suspended at the tip: one that it finds twice. A soft root: a first mode so slow that
-// Lanczos vectors keep few digits of the others. A heavy hub on a soft drive: one so slow that
-// inverse iteration brings it back into the others.
+// Lanczos vectors keep few digits of the others. A heavy hub behind a compliant drive: one so slow
+// that inverse iteration brings it back into the others.
 TEST(HardArms, Agree) {
   int count = 0;
   for (const auto& file : std::filesystem::directory_iterator(kFolder / "hard")) {

@@ -94,9 +94,9 @@ struct DataCheckOptions {
   double floor_share = 0.5;
   /// Spike: what neighbours in time and in other channels do not predict is > this many of its own
   /// robust deviations, and > `least_spike` deviations of the channel; within twelve samples after
-  /// a jump of the torque or of a stop of the hub, > `least_shaken_spike`, after both twice that.
-  /// Of a tip acceleration whose record does not show when the hub stops, anywhere,
-  /// > `least_unseen_stop_spike`.
+  /// a jump of the torque or about a stop of the hub, > `least_shaken_spike`, where both are twice
+  /// that. Of a tip acceleration whose record does not show when the hub stops, anywhere, >
+  /// `least_unseen_stop_spike`.
   double spike_deviations = 8.0;
   double least_spike = 0.6;
   double least_shaken_spike = 2.5;

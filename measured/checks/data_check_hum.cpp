@@ -23,7 +23,6 @@ using Eigen::Index;
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kMains_Hz[] = {50.0, 60.0};
-constexpr double kMainsTolerance_Hz = 0.1;
 constexpr int kGainDegree = 3;
 constexpr int kTorqueDegreeBesideChannel = 1;
 constexpr double kLeastHumScore = 8.0;
@@ -125,6 +124,7 @@ class HumSearch {
     for (std::size_t i = 0; i < signals.size(); ++i) {
       asked_.push_back(usable[i] && signals[i].deviation > 0.0);
     }
+    asked_channels_ = std::count(asked_.begin() + 1, asked_.end(), true);
   }
 
   void search(Hum& hum) {
@@ -159,7 +159,7 @@ class HumSearch {
   Lines beside_torque() const {
     const Lines none(signals_.size());
     // Pulses that repeat have lines, and modes that they excite: another channel knows of them.
-    if (has_pulses_ && std::count(asked_.begin() + 1, asked_.end(), true) > 1) return none;
+    if (has_pulses_ && asked_channels_ > 1) return none;
     auto torque_line =
         asked_[0] ? strongest_line(band_, grid_, lines_of(0), band_.transient()) : std::nullopt;
     // Friction answers a torque with a line here by others.
@@ -200,16 +200,18 @@ class HumSearch {
   /// with the line h and a gain g.
   std::optional<HumLine> missed_by_channels() const {
     if (has_pulses_ || !asked_[0]) return std::nullopt;
+    const BandLines transient = band_.transient();
+    const BandLines known = beside(0, lines_of(0));
     HumLine best;
     for (std::size_t w = 0; w < grid_.waves.size(); ++w) {
       const auto fit_here = [&](std::size_t signal, const BandLines& others) {
         return fit_line(lines_of(signal), others, grid_.waves[w], grid_.frequencies_Hz[w]);
       };
-      const HumLine there = fit_here(0, band_.transient());
+      const HumLine there = fit_here(0, transient);
       std::vector<Estimate> estimates = {{there.amplitude, there.error}};
       for (std::size_t i = 1; i < signals_.size(); ++i) {
         if (!asked_[i]) continue;
-        const HumLine line = fit_here(i, beside(0, lines_of(0)));
+        const HumLine line = fit_here(i, known);
         const double gain = std::abs(line.gain);
         if (gain > 0.0) estimates.push_back({-line.amplitude / line.gain, line.error / gain});
       }
@@ -263,14 +265,15 @@ class HumSearch {
   /// which i can be fitted well leaves it, and one at least leaves none in j.
   bool is_own(std::size_t i, std::size_t j, const HumLine& line) const {
     const double at_Hz = line.frequency_Hz;
-    const Complex blamed = fit(j, i, at_Hz).amplitude;
+    const BandLines wave = band_.of_wave(at_Hz, 0);
+    const Complex blamed = fit(j, i, wave, at_Hz).amplitude;
     bool is_cleared = false;
     for (std::size_t k = 0; k < signals_.size(); ++k) {
       if (k == i || k == j || (k > 0 && !asked_[k])) continue;
-      if (denies(fit(i, k, at_Hz), line.amplitude)) return false;
-      is_cleared |= denies(fit(j, k, at_Hz), blamed);
+      if (denies(fit(i, k, wave, at_Hz), line.amplitude)) return false;
+      is_cleared |= denies(fit(j, k, wave, at_Hz), blamed);
     }
-    const Complex difference = fit(i, 0, at_Hz).amplitude - line.amplitude;
+    const Complex difference = fit(i, 0, wave, at_Hz).amplitude - line.amplitude;
     return is_cleared && std::abs(difference) < kMostDifference * std::abs(line.amplitude);
   }
 
@@ -278,9 +281,12 @@ class HumSearch {
   void drop_explained(Lines& found) const {
     const Lines all = found;
     for (std::size_t i = 1; i < found.size(); ++i) {
+      if (!all[i]) continue;
+      const double at_Hz = all[i]->frequency_Hz;
+      const BandLines wave = band_.of_wave(at_Hz, 0);
       for (std::size_t k = 1; k < found.size() && found[i]; ++k) {
         if (k == i || all[k] || !asked_[k]) continue;
-        if (denies(fit(i, k, all[i]->frequency_Hz), all[i]->amplitude)) found[i].reset();
+        if (denies(fit(i, k, wave, at_Hz), all[i]->amplitude)) found[i].reset();
       }
     }
   }
@@ -296,9 +302,9 @@ class HumSearch {
     return columns;
   }
 
-  HumLine fit(std::size_t signal, std::size_t other, double frequency_Hz) const {
-    return fit_line(lines_of(signal), beside(other, lines_of(0)), band_.of_wave(frequency_Hz, 0),
-                    frequency_Hz);
+  HumLine fit(std::size_t signal, std::size_t other, const BandLines& wave,
+              double frequency_Hz) const {
+    return fit_line(lines_of(signal), beside(other, lines_of(0)), wave, frequency_Hz);
   }
 
   /// Whether a fit knows a line well and has another one.
@@ -321,7 +327,7 @@ class HumSearch {
       // Steps of a torque excite modes of the tip's acceleration beyond the smooth gain, and
       // nothing tells small lines of the only channel from those of pulses that repeat.
       if (signals_[signal].is(arm::SensorKind::tip_acceleration)) least = kLeastBesideSteps;
-      if (std::count(asked_.begin() + 1, asked_.end(), true) == 1) least = kLeastAlone;
+      if (asked_channels_ == 1) least = kLeastAlone;
     }
     return least * signals_[signal].deviation;
   }
@@ -339,6 +345,7 @@ class HumSearch {
 
   std::span<const CheckedSignal> signals_;
   std::vector<bool> asked_;
+  std::ptrdiff_t asked_channels_ = 0;
   double period_s_;
   double mains_Hz_;
   bool has_pulses_;  ///< the torque is made of levels

@@ -16,7 +16,7 @@ using Eigen::Index;
 constexpr double kLineTurn_rad = 2.0 * std::numbers::pi;
 constexpr Index kFewestBandSide = 8;
 constexpr double kGridLines = 0.5;
-constexpr double kReach_Hz = 0.1;
+constexpr int kTransientDegree = 2;
 constexpr double kCandidateScore = 4.0;
 constexpr double kMostChange = 0.25;
 constexpr double kChangeErrors = 3.0;
@@ -115,7 +115,7 @@ HumLine fit_line(const Eigen::VectorXcd& target, const BandLines& others, const 
 
 HumGrid hum_grid(const HumBand& band) {
   HumGrid grid;
-  grid.reach_Hz = std::max(kReach_Hz, kGridLines / band.duration_s());
+  grid.reach_Hz = std::max(kMainsTolerance_Hz, kGridLines / band.duration_s());
   const auto steps = static_cast<int>(std::ceil(grid.reach_Hz * band.duration_s() / kGridLines));
   for (int i = -steps; i <= steps; ++i) {
     grid.frequencies_Hz.push_back(band.centre_Hz() + grid.reach_Hz * i / steps);

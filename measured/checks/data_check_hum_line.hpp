@@ -12,8 +12,8 @@ namespace flexarm::measured {
 /// Lines of a band about a frequency: a row a line, a column a function of time.
 using BandLines = Eigen::MatrixXcd;
 
-constexpr Eigen::Index kBandSide = 12;  ///< lines on either side
-constexpr int kTransientDegree = 2;
+constexpr Eigen::Index kBandSide = 12;      ///< lines on either side
+constexpr double kMainsTolerance_Hz = 0.1;  ///< of its frequency
 
 /// The lines `centre_Hz` + L/duration of transforms under Hann's window, |L| <= 12, or fewer where
 /// the band would reach 0 or half the sampling frequency.

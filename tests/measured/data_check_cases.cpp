@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <numeric>
 
 namespace flexarm::measured {
@@ -181,6 +182,15 @@ DrawnRun draw_run(std::uint64_t seed, const CaseNeeds& needs) {
                                 seed, response::name(excitation), rate_Hz, duration_s, run.noise,
                                 run.length_m, arm.payload.mass_kg, with);
   return run;
+}
+
+void add_line(std::vector<double>& values, double period_s, double frequency_Hz, double amplitude,
+              double phase_rad) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] += amplitude * std::cos(2.0 * std::numbers::pi * frequency_Hz * period_s *
+                                          static_cast<double>(k) +
+                                      phase_rad);
+  }
 }
 
 DataCheckOptions known_arm(const DrawnRun& run, std::uint64_t seed) {

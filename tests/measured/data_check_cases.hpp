@@ -59,6 +59,10 @@ void finish(TimeRecord& record, const DrawnRun& run, response::RandomNumbers& ra
 /// Standard deviation.
 double deviation(const std::vector<double>& values);
 
+/// Adds amplitude cos(2 pi frequency t + phase), t from 0 at the first value.
+void add_line(std::vector<double>& values, double period_s, double frequency_Hz, double amplitude,
+              double phase_rad = 0.0);
+
 /// What `check_data` may know of a run's arm: length, inertia and the arm as a file describes it,
 /// by another formulation than the run's, without friction, and for half of the seeds with errors
 /// of 1 % (standard deviation) in rigidity, density and hub inertia.

@@ -5,9 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,11 +13,8 @@ namespace flexarm::measured {
 namespace {
 
 /// Adds a line of 50 Hz, of a share of the signal's standard deviation.
-void add_hum(std::vector<double>& values, double period_s, double share) {
-  const double amplitude = share * deviation(values);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    values[k] += amplitude * std::cos(100.0 * std::numbers::pi * period_s * static_cast<double>(k));
-  }
+void add_hum(std::vector<double>& values, const std::vector<double>& time_s, double share) {
+  add_line(values, time_s[1] - time_s[0], 50.0, share * deviation(values));
 }
 
 std::vector<std::string> channels_with_hum(const PlantedFault& run) {
@@ -39,7 +34,7 @@ TEST_P(HumOfAChannel, IsThatOfTheOneWhichNoOtherExplains) {
   for (std::size_t channel = 0; channel < channels; ++channel) {
     PlantedFault run = clean(GetParam());
     auto& [sensor, values, left_out] = run.record.channels[channel];
-    add_hum(values, run.record.time_s[1] - run.record.time_s[0], 0.3);
+    add_hum(values, run.record.time_s, 0.3);
     EXPECT_THAT(channels_with_hum(run), testing::ElementsAre(arm::to_string(sensor)))
         << run.description;
   }
@@ -53,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Hum, HumOfAChannel, testing::Values(kPulses, kMultisine
 
 TEST(Hum, OfTheTorqueIsNotThatOfTheChannelsThatMissIt) {
   PlantedFault run = clean(kRandom);
-  add_hum(run.record.torque_N_m, run.record.time_s[1] - run.record.time_s[0], 0.5);
+  add_hum(run.record.torque_N_m, run.record.time_s, 0.5);
   EXPECT_THAT(channels_with_hum(run), testing::ElementsAre("torque")) << run.description;
 }
 

@@ -86,11 +86,7 @@ PlantedFault hum(std::uint64_t seed, RandomNumbers& random) {
     if (least > 1.0) continue;
     const double amplitude = size * log_between(random, least, 1.0);
     const double phase = between(random, 0.0, 2.0 * std::numbers::pi);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      values[k] += amplitude * std::cos(2.0 * std::numbers::pi * frequency_Hz * period_s *
-                                            static_cast<double>(k) +
-                                        phase);
-    }
+    add_line(values, period_s, frequency_Hz, amplitude, phase);
     result.description += fmt::format(", hum of {:.2f} Hz in {}, {:.3f} deviations", frequency_Hz,
                                       result.channel, amplitude / size);
     return result;

@@ -83,7 +83,7 @@ std::span<const string_view> LineSplitter::split_names(string_view line) {
   std::vector<string_view> names;
   char awaited = '\0';
   for (const auto cell : cells_) {
-    const bool opens = cell.front() == '(' || cell.front() == '[';
+    const bool opens = cell.starts_with('(') || cell.starts_with('[');
     if ((awaited != '\0' || opens) && !names.empty()) {
       const char* begin = names.back().data();
       names.back() = {begin, static_cast<std::size_t>(cell.data() + cell.size() - begin)};

@@ -199,13 +199,14 @@ std::vector<bool> shaken_samples(const Eigen::VectorXd& torque, bool torque_is_k
 
 /// Repairs the spikes among the first kOwnReach samples, which have few neighbours before them, and
 /// puts them into `found`. They stand alone if no residual of the kAround samples behind is kAlone
-/// of their size. The first of those in `rests` reads what an arm at rest does.
+/// of their size. `starts`: so many samples of a signal are the start from rest, which nothing
+/// before them predicts.
 void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
-                  const std::vector<bool>& rests, const Shaking& shaking,
+                  const std::vector<std::size_t>& starts, const Shaking& shaking,
                   const DataCheckOptions& options, std::vector<std::set<std::size_t>>& found) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
-    for (std::size_t k = kOwnReach; k-- > 0;) {
+    for (std::size_t k = kOwnReach; k-- > starts[i];) {
       const std::vector<double> left = left_by_later(values, i, usable);
       const double size = std::abs(left[k]);
       const double least =
@@ -214,7 +215,7 @@ void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>&
       const bool is_alone =
           std::ranges::all_of(std::span(left).subspan(k + 1, kAround),
                               [size](double beside) { return std::abs(beside) <= kAlone * size; });
-      if (size <= least || !is_alone || (k == 0 && rests[i])) continue;
+      if (size <= least || !is_alone) continue;
       values[i][static_cast<Eigen::Index>(k)] -= left[k];
       found[i].insert(k);
     }
@@ -223,17 +224,17 @@ void repair_begin(std::vector<Eigen::VectorXd>& values, const std::vector<bool>&
 
 /// As `repair_begin` at both ends; the end is the begin of the reversed record.
 void repair_ends(std::vector<Eigen::VectorXd>& values, const std::vector<bool>& usable,
-                 const std::vector<bool>& rests, Shaking shaking, const DataCheckOptions& options,
-                 std::vector<std::set<std::size_t>>& found) {
+                 const std::vector<std::size_t>& starts, Shaking shaking,
+                 const DataCheckOptions& options, std::vector<std::set<std::size_t>>& found) {
   const auto reverse = [&] {
     for (auto& signal : values) signal.reverseInPlace();
     std::reverse(shaking.samples.begin(), shaking.samples.end());
     std::reverse(shaking.stops.begin(), shaking.stops.end());
   };
-  repair_begin(values, usable, rests, shaking, options, found);
+  repair_begin(values, usable, starts, shaking, options, found);
   reverse();
   std::vector<std::set<std::size_t>> at_end(found.size());
-  repair_begin(values, usable, std::vector<bool>(found.size(), false), shaking, options, at_end);
+  repair_begin(values, usable, std::vector<std::size_t>(found.size(), 0), shaking, options, at_end);
   reverse();
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (const std::size_t k : at_end[i]) found[i].insert(shaking.samples.size() - 1 - k);
@@ -354,14 +355,15 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     const bool is_shaken_unseen = signal.is(arm::SensorKind::tip_acceleration) && !stops_are_known;
     shaking.least_elsewhere.push_back(is_shaken_unseen ? options.least_unseen_stop_spike : 0.0);
   }
-  std::vector<bool> rests;
+  std::vector<std::size_t> starts;
   for (const auto& signal : signals) {
     constexpr double kNextToRest = 0.1;  // standard deviations
-    rests.push_back(options.starts_at_rest &&
-                    std::abs(signal.values[0]) < kNextToRest * signal.deviation);
+    const bool rests = std::abs(signal.values[0]) < kNextToRest * signal.deviation;
+    const bool is_torn_loose = signal.is(arm::SensorKind::tip_acceleration) && !stops_are_known;
+    starts.push_back(!options.starts_at_rest ? 0 : is_torn_loose ? kOwnReach : rests ? 1 : 0);
   }
   std::vector<std::set<std::size_t>> found(signals.size());
-  if (ends_are_sound) repair_ends(values, usable, rests, shaking, options, found);
+  if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);
   const auto take = [&](const std::vector<Outlier>& chosen) {
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
@@ -382,7 +384,7 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     }
   }
   repair(values, found, usable);
-  if (ends_are_sound) repair_ends(values, usable, rests, shaking, options, found);
+  if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (found[i].empty()) continue;

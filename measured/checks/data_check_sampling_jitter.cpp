@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -35,8 +36,18 @@ constexpr double kLeastRms_periods = 0.05;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
 constexpr double kLeastRmsAlone_periods = 0.12;  // of one channel
 constexpr Index kGroups = 12;
-constexpr double kLeastTypical = 0.45;  // of the rms by least squares
-constexpr double kLeastTypicalAlone = 0.6;
+/// Least typical rms over that by least squares: of one channel, of two, of more. The more
+/// channels, the less else can look like jitter.
+constexpr std::array<double, 3> kLeastTypical = {0.67, 0.6, 0.45};
+/// Beside pulses this rms is twice the least one: less evidence is enough.
+constexpr double kLargeRmsBesidePulses_periods = 0.2;
+constexpr double kLeastEvidenceOfLarge = 3.2;
+/// Where all groups show the rms and the evidence is strong, the motion's change over the record
+/// explains nothing, and of one channel a smaller rms is believed.
+constexpr double kUniform = 1.15;  // largest ratio of the typical rms and that by least squares
+constexpr double kStrongEvidence = 8.0;
+constexpr double kStrongEvidenceAlone = 20.0;
+constexpr double kLeastUniformRmsAlone_periods = 0.09;
 constexpr double kMedianOfChiSquare = 0.455;  // one degree of freedom
 
 /// Samples that no jump of the torque shakes, over [kJitterReach, samples - kJitterReach).
@@ -191,21 +202,28 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
     beside = growth_of((all - u) / static_cast<double>(channels - 1), g, 1).slope;
   }
   const double rms = growth.rms();
+  const bool has_pulses = has_few_levels(signals[0].values);
   // Where g is constant the slope is not a number.
-  const double evidence = growth.slope - kAcross * std::max(0.0, beside);
-  if (!(evidence > kLeastEvidence * growth.error)) return {};
-  const bool is_alone = channels == 1;
-  const double least = std::max(
-      has_few_levels(signals[0].values) ? kLeastRmsBesidePulses_periods : kLeastRms_periods,
-      is_alone ? kLeastRmsAlone_periods : 0.0);
-  if (rms <= least || typical_rms(u, g) < (is_alone ? kLeastTypicalAlone : kLeastTypical) * rms) {
-    return {};
+  const double evidence = (growth.slope - kAcross * std::max(0.0, beside)) / growth.error;
+  const bool is_large = has_pulses && rms > kLargeRmsBesidePulses_periods;
+  if (!(evidence > (is_large ? kLeastEvidenceOfLarge : kLeastEvidence))) return {};
+  const double typical = typical_rms(u, g) / rms;
+  const bool is_uniform = std::max(typical, 1.0 / typical) < kUniform;
+  double least_periods = has_pulses ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
+  if (channels == 1) {
+    const bool is_sure = is_uniform && evidence > kStrongEvidenceAlone;
+    least_periods =
+        std::max(least_periods, is_sure ? kLeastUniformRmsAlone_periods : kLeastRmsAlone_periods);
   }
-  // Noise may change with the motion over the record, as under a chirp.
-  const Growth within = growth_of(u, g, kTimeBlocks);
-  if (!(within.slope > kLeastEvidenceInBlocks * within.error) ||
-      within.rms() < kLeastShareInBlocks * rms) {
-    return {};
+  const auto class_of_channels = static_cast<std::size_t>(std::min<Index>(channels, 3) - 1);
+  if (rms <= least_periods || typical < kLeastTypical[class_of_channels]) return {};
+  if (channels == 1 || !is_uniform || evidence < kStrongEvidence) {
+    // Noise may change with the motion over the record, as under a chirp.
+    const Growth within = growth_of(u, g, kTimeBlocks);
+    if (!(within.slope > kLeastEvidenceInBlocks * within.error) ||
+        within.rms() < kLeastShareInBlocks * rms) {
+      return {};
+    }
   }
   return {
       {Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace flexarm::measured {
 
@@ -43,11 +45,16 @@ std::vector<double> directions(const std::vector<double>& velocity) {
   return sign;
 }
 
+/// Velocities over which friction fades, of the standard deviation: the first is for the estimate,
+/// the others show what it owes to this choice.
+constexpr std::array<double, 3> kFades = {0.3, 0.1, 1.0};
+/// Most by which these estimates may differ, of the first.
+constexpr double kMostApart = 0.5;
+
 /// Friction that is more near rest, as Stribeck's: a direction that fades with the velocity.
 std::vector<double> near_rest(const std::vector<double>& direction,
-                              const std::vector<double>& velocity) {
-  constexpr double kFades = 0.3;  // of the velocity's standard deviation
-  const double fades = std::max(kFades * standard_deviation(velocity), 1e-300);
+                              const std::vector<double>& velocity, double fades_over) {
+  const double fades = std::max(fades_over * standard_deviation(velocity), 1e-300);
   std::vector<double> friction;
   for (std::size_t k = 0; k < velocity.size(); ++k) {
     friction.push_back(direction[k] * std::exp(-std::abs(velocity[k]) / fades));
@@ -77,6 +84,27 @@ Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const doub
   return lines / std::sqrt(transforms.bins_per_line);
 }
 
+struct Coefficient {
+  double value = 0.0;
+  double error = 0.0;  ///< standard error
+};
+
+/// Of `column`, by least squares.
+Coefficient coefficient_of(Eigen::MatrixXd columns, Eigen::Index column,
+                           const Eigen::VectorXd& target) {
+  Eigen::VectorXd scale = columns.colwise().norm().transpose();
+  scale = scale.array().max(1e-300);
+  columns = columns * scale.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd normal = columns.transpose() * columns;
+  normal.diagonal().array() += 1e-12;
+  const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
+  const Eigen::VectorXd solution = factors.solve(columns.transpose() * target);
+  const double variance = (target - columns * solution).squaredNorm() /
+                          static_cast<double>(target.size() - columns.cols());
+  const double inverse = factors.solve(Eigen::VectorXd::Unit(columns.cols(), column))[column];
+  return {solution[column] / scale[column], std::sqrt(variance * inverse) / scale[column]};
+}
+
 }  // namespace
 
 std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
@@ -98,22 +126,17 @@ std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
   columns.col(1) = -answer(std::vector<double>(hub.values.size(), 1.0));
   columns.col(2) = -answer(direction);
   columns.col(3) = -answer(velocity);
-  columns.col(4) = -answer(near_rest(direction, velocity));
-  Eigen::VectorXd scale = columns.colwise().norm().transpose();
-  scale = scale.array().max(1e-300);
-  columns = columns * scale.cwiseInverse().asDiagonal();
-  Eigen::MatrixXd normal = columns.transpose() * columns;
-  normal.diagonal().array() += 1e-12;
-  const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
-  const Eigen::VectorXd solution = factors.solve(columns.transpose() * target);
-  const double variance = (target - columns * solution).squaredNorm() /
-                          static_cast<double>(target.size() - columns.cols());
-  const double offset = solution[1] / scale[1];
-  const double error =
-      std::sqrt(variance * factors.solve(Eigen::VectorXd::Unit(columns.cols(), 1))[1]) / scale[1];
+  std::vector<Coefficient> offsets;
+  for (const double fades_over : kFades) {
+    columns.col(4) = -answer(near_rest(direction, velocity, fades_over));
+    offsets.push_back(coefficient_of(columns, 1, target));
+  }
+  const auto [offset, error] = offsets.front();
   const double size = std::abs(offset);
+  const auto [least, most] = std::ranges::minmax(offsets, {}, &Coefficient::value);
   if (!(size > comparison.options.least_torque_offset * torque.deviation) ||
-      !(size > comparison.options.offset_errors * error)) {
+      !(size > comparison.options.offset_errors * error) ||
+      most.value - least.value > kMostApart * size) {
     return {};
   }
   return {

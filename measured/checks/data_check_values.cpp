@@ -26,9 +26,14 @@ std::string_view unit_shown(const CheckedSignal& signal) {
 
 /// Whether changes fade into a run, `at(1)` the nearest: in friction a hub comes to rest on a
 /// parabola, with changes 1/2, 3/2, 5/2, ... of one size. Noise and clipping show no such row.
-/// `rounding` is the step in which values are written: a change is off by as much.
+/// `rounding` is the step in which values are written: a change is off by as much. Four changes of
+/// a few steps are those of a hub that creeps.
 template <class Change>
 bool fades(const Change& at, double rounding) {
+  constexpr double kCreep = 4.0;  // steps
+  const double largest =
+      std::max({std::abs(at(1)), std::abs(at(2)), std::abs(at(3)), std::abs(at(4))});
+  if (largest <= kCreep * rounding) return true;
   const auto smaller = [&](std::size_t near, std::size_t far, double factor) {
     return std::abs(at(near)) <= factor * std::abs(at(far)) + (1.0 + factor) * rounding;
   };
@@ -133,6 +138,13 @@ double smallest_change(std::span<const double> x) {
   return smallest;
 }
 
+/// What lies beside a run: readings of seven digits have finer steps elsewhere.
+std::span<const double> around(std::span<const double> x, const EqualRun& run) {
+  constexpr std::size_t kBeside = 64;  // samples
+  const std::size_t from = run.first - std::min(run.first, kBeside);
+  return x.subspan(from, std::min(x.size(), run.first + run.count + kBeside) - from);
+}
+
 Limit limit_at(std::span<const CheckedSignal> signals, const CheckedSignal& signal, double value,
                double step) {
   const auto x = signal.values;
@@ -215,8 +227,6 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
   if (signal.is_torque()) return std::nullopt;
   const auto x = signal.values;
   const auto pairs = equal_runs(x, 2);
-  // A hub that friction stops creeps by the last digit.
-  const double rounding = signal.is(arm::SensorKind::hub_angle) ? smallest_change(x) : 0.0;
   std::optional<DataFinding> found;
   std::size_t places = 0;
   EqualRun first_run;
@@ -224,6 +234,9 @@ std::optional<DataFinding> stuck(const CheckedSignal& signal,
     if (run.count < static_cast<std::size_t>(options.least_stuck_samples)) continue;
     const bool rests_at_zero =
         x[run.first] == 0.0 && (run.first == 0 || signal.is(arm::SensorKind::hub_velocity));
+    // A hub that friction stops creeps by the last digit.
+    const double rounding =
+        signal.is(arm::SensorKind::hub_angle) ? smallest_change(around(x, run)) : 0.0;
     // What goes on from its first reading without a jump has not begun to move, or shows it late.
     const bool begins = run.first == 0 && !catches_up(x, run);
     if (rests_at_zero || begins || is_restful(x, run, rounding) || is_held(signals, signal, run) ||

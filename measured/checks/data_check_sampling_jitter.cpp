@@ -22,16 +22,18 @@ using Eigen::Index;
 
 constexpr int kJitterReach = 4;  // samples of its own that predict one of a channel
 constexpr std::size_t kFewestRows = 200;
-constexpr Index kShakenFor = 24;       // samples after a jump of the torque
-constexpr double kMostResidual = 4.0;  // robust deviations; as this in their covariance
-constexpr double kMostSquare = 12.0;   // u over its expected value; larger ones are taken for this
-constexpr double kSingular = 1e-3;     // of the mean variance, on the diagonal of the covariance
+constexpr Index kShakenFor = 24;                  // samples after a jump of the torque
+constexpr std::size_t kShakenByFrictionFor = 12;  // on either side of a stop of the hub
+constexpr double kMostResidual = 4.0;             // robust deviations; as this in their covariance
+constexpr double kMostSquare = 12.0;  // u over its expected value; larger ones are taken for this
+constexpr double kSingular = 1e-3;    // of the mean variance, on the diagonal of the covariance
 constexpr int kJitterReweightings = 8;
 constexpr Index kTimeBlocks = 12;
 constexpr double kLeastEvidenceInBlocks = 2.0;  // standard errors
-constexpr double kLeastShareInBlocks = 0.5;     // of the rms of the whole
-constexpr double kLeastEvidence = 4.5;          // standard errors
-constexpr double kAcross = 1.5;                 // by which what grows across the derivatives counts
+constexpr double kLeastEvidenceInBlocksOfPulses = 1.5;
+constexpr double kLeastShareInBlocks = 0.5;  // of the rms of the whole
+constexpr double kLeastEvidence = 4.5;       // standard errors
+constexpr double kAcross = 1.5;              // by which what grows across the derivatives counts
 constexpr double kLeastRms_periods = 0.05;
 constexpr double kLeastRmsBesidePulses_periods = 0.1;
 constexpr double kLeastRmsAlone_periods = 0.12;  // of one channel
@@ -39,9 +41,9 @@ constexpr Index kGroups = 12;
 /// Least typical rms over that by least squares: of one channel, of two, of more. The more
 /// channels, the less else can look like jitter.
 constexpr std::array<double, 3> kLeastTypical = {0.67, 0.6, 0.45};
-/// Beside pulses this rms is twice the least one: less evidence is enough.
-constexpr double kLargeRmsBesidePulses_periods = 0.2;
-constexpr double kLeastEvidenceOfLarge = 3.2;
+/// Beside pulses this rms is far above the least one: less evidence is enough.
+constexpr double kLargeRmsBesidePulses_periods = 0.17;
+constexpr double kLeastEvidenceOfLarge = 3.0;
 /// Where all groups show the rms and the evidence is strong, the motion's change over the record
 /// explains nothing, and of one channel a smaller rms is believed.
 constexpr double kUniform = 1.15;  // largest ratio of the typical rms and that by least squares
@@ -50,17 +52,19 @@ constexpr double kStrongEvidenceAlone = 20.0;
 constexpr double kLeastUniformRmsAlone_periods = 0.09;
 constexpr double kMedianOfChiSquare = 0.455;  // one degree of freedom
 
-/// Samples that no jump of the torque shakes, over [kJitterReach, samples - kJitterReach).
-std::vector<Index> calm_rows(const Eigen::VectorXd& torque, bool torque_is_known) {
+/// Samples that no jump of the torque shakes, nor one of friction, over
+/// [kJitterReach, samples - kJitterReach).
+std::vector<Index> calm_rows(std::span<const CheckedSignal> signals,
+                             const std::vector<bool>& usable, const Eigen::VectorXd& torque) {
   const Index samples = torque.size();
-  std::vector<bool> is_shaken(static_cast<std::size_t>(samples), false);
+  std::vector<bool> is_shaken = samples_near_stops(signals, usable, kShakenByFrictionFor);
   const auto shake = [&](Index from, Index to) {
     for (Index k = std::max<Index>(0, from); k < std::min(samples, to); ++k) {
       is_shaken[static_cast<std::size_t>(k)] = true;
     }
   };
   shake(0, kShakenFor);  // the record may begin with a jump
-  if (torque_is_known) {
+  if (usable[0]) {
     for (const Index k : torque_jumps(torque)) shake(k - kJitterReach + 1, k + 1 + kShakenFor);
   }
   std::vector<Index> rows;
@@ -169,7 +173,7 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
                                                const std::vector<bool>& usable, double period_s) {
   const auto values = standardised(signals);
   if (values[0].size() <= 2 * kJitterReach) return {};
-  const auto rows = calm_rows(values[0], usable[0]);
+  const auto rows = calm_rows(signals, usable, values[0]);
   if (rows.size() < kFewestRows) return {};
   const auto channels = std::count(usable.begin() + 1, usable.end(), true);
   if (channels == 0) return {};
@@ -220,8 +224,8 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
   if (channels == 1 || !is_uniform || evidence < kStrongEvidence) {
     // Noise may change with the motion over the record, as under a chirp.
     const Growth within = growth_of(u, g, kTimeBlocks);
-    if (!(within.slope > kLeastEvidenceInBlocks * within.error) ||
-        within.rms() < kLeastShareInBlocks * rms) {
+    const double least = has_pulses ? kLeastEvidenceInBlocksOfPulses : kLeastEvidenceInBlocks;
+    if (!(within.slope > least * within.error) || within.rms() < kLeastShareInBlocks * rms) {
       return {};
     }
   }

@@ -263,6 +263,8 @@ std::string_view to_string(Fault fault) {
       return "zero torque";
     case Fault::wrong_payload:
       return "wrong payload";
+    case Fault::uneven_noise:
+      return "uneven noise";
     case Fault::duplicated_samples:
       return "duplicated samples";
     case Fault::sampling_jitter:

@@ -35,6 +35,7 @@ enum class Fault {
   sampling_jitter,     ///< instants of sampling off the even times that are written
   hum,                 ///< a line of the mains frequency that is none of the arm's
   wrong_payload,       ///< another than the run states, by comparison with other runs
+  uneven_noise,        ///< of a channel in one run, by comparison with other runs
 };
 
 inline constexpr std::array kFaults = {
@@ -44,7 +45,8 @@ inline constexpr std::array kFaults = {
     Fault::drift,           Fault::offset,       Fault::swapped_channels,
     Fault::sign_flipped,    Fault::wrong_unit,   Fault::wrong_scale,
     Fault::delay,           Fault::zero_torque,  Fault::duplicated_samples,
-    Fault::sampling_jitter, Fault::hum,          Fault::wrong_payload};
+    Fault::sampling_jitter, Fault::hum,          Fault::wrong_payload,
+    Fault::uneven_noise};
 
 /// "clock jitter", "missing samples": as in a sentence.
 std::string_view to_string(Fault fault);

@@ -2,6 +2,7 @@
 
 #include "measured/checks/data_check_described.hpp"
 #include "measured/checks/data_check_signal.hpp"
+#include "measured/checks/run_check_noise.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
@@ -160,8 +161,10 @@ std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
 }  // namespace
 
 std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms) {
-  if (!arms.with || arms.beam_mass_kg == 0.0) return {};
-  return check_payloads(runs, arms);
+  std::vector<RunFinding> findings = check_noise_between_runs(runs);
+  if (!arms.with || arms.beam_mass_kg == 0.0) return findings;
+  for (auto& finding : check_payloads(runs, arms)) findings.push_back(std::move(finding));
+  return findings;
 }
 
 std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun> runs,

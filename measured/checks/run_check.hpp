@@ -35,11 +35,13 @@ struct RunFinding {
   DataFinding finding;
 };
 
-/// What runs say of each other: a payload that is another than stated. The payload with which the
-/// described arm is nearest to a run (described_distance) differs from what is stated in this run
-/// alone. What the arm file has wrong for all runs is no finding.
+/// What runs say of each other: a payload that is another than stated, and the noise of a channel
+/// that is a multiple of that in the other runs (check_noise_between_runs). The payload with which
+/// the described arm is nearest to a run (described_distance) differs from what is stated in this
+/// run alone. What the arm file has wrong for all runs is no finding.
 ///
-/// Runs with a finding in their times or their torque are left out, and channels with one.
+/// Runs with a finding in their times are left out, for payloads those with one in their torque,
+/// and channels with one.
 std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms);
 
 /// The findings of `check_data` and `check_runs`, a list a run; empty for what is no `time` run.

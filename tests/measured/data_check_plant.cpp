@@ -312,6 +312,7 @@ PlantedFault plant(Fault fault, std::uint64_t seed) {
     case Fault::zero_torque:
       return zero_torque(seed, random);
     case Fault::wrong_payload:  // of several runs: run_check_cases.hpp
+    case Fault::uneven_noise:
       break;
     case Fault::duplicated_samples:
       return duplicated_samples(seed, random);

@@ -1,0 +1,149 @@
+#include "measured/checks/run_check_noise.hpp"
+
+#include "measured/checks/data_check_prediction.hpp"
+#include "measured/checks/data_check_transform.hpp"
+#include "measured/spectra/robust.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace flexarm::measured {
+
+namespace {
+
+constexpr std::size_t kFewestNoiseSamples = 256;
+constexpr std::size_t kMostNoiseSamples = 16384;  // of a long run the first samples say enough
+constexpr int kOwnSamples = 3;
+constexpr int kOtherSamples = 2;
+/// Bands of the upper half of the spectrum. The strongest may have a resonance; of the others the
+/// strongest is at most this many times the weakest in power.
+constexpr std::size_t kUpperBands = 4;
+constexpr double kMostUneven = 2.0;
+/// Of white noise the spectrum's level over what the prediction leaves.
+constexpr double kLeastWhite = 0.8;
+constexpr double kMostWhite = 1.03;
+/// What counts as noise: standard deviations of the channel.
+constexpr double kLeastNoise = 0.003;
+constexpr double kTimes = 3.0;
+/// Sampling frequencies of runs whose noise is compared: a slower reading may be a mean.
+constexpr double kMostRateRatio = 1.5;
+
+/// Standard deviation of a channel's noise in a run, in the channel's unit.
+struct ChannelNoise {
+  std::size_t run = 0;
+  double period_s = 0.0;
+  double most = 0.0;     ///< an upper bound
+  double certain = 0.0;  ///< of what is noise for certain; 0: none is
+};
+
+double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                          const std::vector<bool>& usable) {
+  std::vector<Lagged> regressors;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!usable[i]) continue;
+    const int reach = i == self ? kOwnSamples : kOtherSamples;
+    for (int lag = -reach; lag <= reach; ++lag) {
+      if (i != self || lag != 0) regressors.push_back({i, lag});
+    }
+  }
+  const Regression made =
+      regress(values, self, regressors, kOwnSamples, values[0].size() - 2 * kOwnSamples);
+  // The noise of the channel's own neighbours is in the residual with their shares.
+  double power = 1.0;
+  for (std::size_t j = 0; j < regressors.size(); ++j) {
+    const double share = made.shares[static_cast<Eigen::Index>(j)];
+    if (regressors[j].signal == self) power += share * share;
+  }
+  return robust_deviation({made.left.data(), static_cast<std::size_t>(made.left.size())}) /
+         std::sqrt(power);
+}
+
+/// Standard deviation of what is white in the upper half of the spectrum; empty: it is not white.
+std::optional<double> white_upper_half(const Transform& transform, double window_power) {
+  const std::size_t half = transform.plain.size() / 2;
+  std::array<double, kUpperBands> power{};
+  for (std::size_t band = 0; band < kUpperBands; ++band) {
+    const std::size_t from = half + band * half / kUpperBands;
+    const std::size_t to = half + (band + 1) * half / kUpperBands;
+    for (std::size_t k = from; k < to; ++k) power[band] += std::norm(transform.plain[k]);
+    power[band] /= static_cast<double>(to - from) * window_power;
+  }
+  std::ranges::sort(power);
+  if (power[kUpperBands - 2] > kMostUneven * power[0]) return std::nullopt;
+  double sum = 0.0;
+  for (std::size_t band = 0; band + 1 < kUpperBands; ++band) sum += power[band];
+  return std::sqrt(sum / static_cast<double>(kUpperBands - 1));
+}
+
+/// Adds what a run says of its channels.
+void add_noise_of(std::size_t run, const CheckedRun& checked,
+                  std::map<std::string, std::vector<ChannelNoise>>& noise) {
+  const auto has_finding = [&](std::string_view channel) {
+    return std::ranges::count(checked.findings, channel, &DataFinding::channel) > 0;
+  };
+  const TimeRecord& record = *checked.record;
+  const std::size_t count = std::min(record.time_s.size(), kMostNoiseSamples);
+  if (count < kFewestNoiseSamples || has_finding("time")) return;
+  const auto signals = signals_of(record, 0, count);
+  std::vector<bool> usable;
+  for (const auto& signal : signals) {
+    usable.push_back(signal.deviation > 0.0 && !has_finding(signal.name));
+  }
+  const double period_s =
+      (record.time_s[count - 1] - record.time_s[0]) / static_cast<double>(count - 1);
+  const Transforms transforms = transform(signals, period_s, checked.starts_at_rest);
+  const auto values = standardised(signals);
+  for (std::size_t i = 1; i < signals.size(); ++i) {
+    if (!usable[i]) continue;
+    const double unit = signals[i].deviation;
+    const double unpredicted = unit * residual_deviation(values, i, usable);
+    ChannelNoise own{run, period_s, std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
+    const double white = white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0);
+    const bool is_unpredicted =
+        white > kLeastWhite * unpredicted && white < kMostWhite * unpredicted;
+    if (is_unpredicted && white > kLeastNoise * unit) own.certain = std::min(unpredicted, white);
+    noise[signals[i].name].push_back(own);
+  }
+}
+
+bool are_comparable(const ChannelNoise& a, const ChannelNoise& b) {
+  return std::max(a.period_s / b.period_s, b.period_s / a.period_s) < kMostRateRatio;
+}
+
+}  // namespace
+
+std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& runs) {
+  std::map<std::string, std::vector<ChannelNoise>> noise;
+  for (std::size_t i = 0; i < runs.size(); ++i) add_noise_of(i, runs[i], noise);
+  std::vector<RunFinding> findings;
+  for (const auto& [channel, of_runs] : noise) {
+    for (const auto& own : of_runs) {
+      double others = 0.0;
+      for (const auto& other : of_runs) {
+        if (other.run != own.run && are_comparable(own, other)) {
+          others = std::max(others, other.most);
+        }
+      }
+      if (others == 0.0 || own.certain <= kTimes * others) continue;
+      const TimeRecord& record = *runs[own.run].record;
+      const auto sensor = std::ranges::find_if(record.channels, [&](const Channel& one) {
+                            return arm::to_string(one.sensor) == channel;
+                          })->sensor;
+      findings.push_back(
+          {own.run,
+           {Fault::uneven_noise, channel, 0, record.time_s.front(), own.certain,
+            fmt::format(
+                "{} has noise of {:.2g} {} rms, {:.2g} times that of the other runs or more",
+                channel, own.certain, arm::unit(sensor), own.certain / others)}});
+    }
+  }
+  return findings;
+}
+
+}  // namespace flexarm::measured

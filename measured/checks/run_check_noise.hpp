@@ -1,0 +1,17 @@
+#pragma once
+
+#include "measured/checks/run_check.hpp"
+
+#include <vector>
+
+namespace flexarm::measured {
+
+/// Channels whose noise in one run is a multiple of that in every other run with the same sensor.
+/// A run's noise counts where it is white in the upper half of the spectrum, and neither the
+/// channel's neighbours in time nor the other channels predict it. In the other runs the lowest
+/// band of the spectrum and the prediction's residual are upper bounds.
+///
+/// Runs with a finding in their times are left out, and channels with one.
+std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& runs);
+
+}  // namespace flexarm::measured

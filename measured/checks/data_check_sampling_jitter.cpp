@@ -32,15 +32,18 @@ constexpr Index kTimeBlocks = 12;
 constexpr double kLeastEvidenceInBlocks = 2.0;  // standard errors
 constexpr double kLeastEvidenceInBlocksOfPulses = 1.5;
 constexpr double kLeastShareInBlocks = 0.5;  // of the rms of the whole
-constexpr double kLeastEvidence = 4.5;       // standard errors
-constexpr double kAcross = 1.5;              // by which what grows across the derivatives counts
+constexpr double kLeastShareInBlocksAlone = 0.7;
+constexpr double kLeastEvidence = 4.5;  // standard errors
+constexpr double kAcross = 1.5;         // by which what grows across the derivatives counts
 constexpr double kLeastRms_periods = 0.05;
-constexpr double kLeastRmsBesidePulses_periods = 0.1;
+constexpr double kLeastRmsBesidePulses_periods = 0.14;
 constexpr double kLeastRmsAlone_periods = 0.12;  // of one channel
 constexpr Index kGroups = 12;
 /// Least typical rms over that by least squares: of one channel, of two, of more. The more
 /// channels, the less else can look like jitter.
 constexpr std::array<double, 3> kLeastTypical = {0.67, 0.6, 0.45};
+/// More is no jitter: the largest residuals are those of small derivatives.
+constexpr double kMostTypical = 1.2;
 /// Beside pulses this rms is far above the least one: less evidence is enough.
 constexpr double kLargeRmsBesidePulses_periods = 0.17;
 constexpr double kLeastEvidenceOfLarge = 3.0;
@@ -220,12 +223,16 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
         std::max(least_periods, is_sure ? kLeastUniformRmsAlone_periods : kLeastRmsAlone_periods);
   }
   const auto class_of_channels = static_cast<std::size_t>(std::min<Index>(channels, 3) - 1);
-  if (rms <= least_periods || typical < kLeastTypical[class_of_channels]) return {};
+  if (rms <= least_periods || typical < kLeastTypical[class_of_channels] ||
+      typical > kMostTypical) {
+    return {};
+  }
   if (channels == 1 || !is_uniform || evidence < kStrongEvidence) {
     // Noise may change with the motion over the record, as under a chirp.
     const Growth within = growth_of(u, g, kTimeBlocks);
+    const double share = channels == 1 ? kLeastShareInBlocksAlone : kLeastShareInBlocks;
     const double least = has_pulses ? kLeastEvidenceInBlocksOfPulses : kLeastEvidenceInBlocks;
-    if (!(within.slope > least * within.error) || within.rms() < kLeastShareInBlocks * rms) {
+    if (!(within.slope > least * within.error) || within.rms() < share * rms) {
       return {};
     }
   }

@@ -35,6 +35,7 @@ constexpr double kLeastShareInBlocks = 0.5;  // of the rms of the whole
 constexpr double kLeastShareInBlocksAlone = 0.7;
 constexpr double kLeastEvidence = 4.5;  // standard errors
 constexpr double kAcross = 1.5;         // by which what grows across the derivatives counts
+constexpr double kAcrossIfAlike = 1.0;
 constexpr double kLeastRms_periods = 0.05;
 constexpr double kLeastRmsBesidePulses_periods = 0.14;
 constexpr double kLeastRmsAlone_periods = 0.12;  // of one channel
@@ -47,12 +48,14 @@ constexpr double kMostTypical = 1.2;
 /// Beside pulses this rms is far above the least one: less evidence is enough.
 constexpr double kLargeRmsBesidePulses_periods = 0.17;
 constexpr double kLeastEvidenceOfLarge = 3.0;
-/// Where all groups show the rms and the evidence is strong, the motion's change over the record
-/// explains nothing, and of one channel a smaller rms is believed.
-constexpr double kUniform = 1.15;  // largest ratio of the typical rms and that by least squares
+/// Where groups of like g show the rms alike, residuals grow as those of jitter: less evidence is
+/// enough, the motion's change over the record explains nothing, and of one channel a smaller rms
+/// is believed.
+constexpr double kLeastAlike = 0.83;
+constexpr double kMostAlike = 1.1;
 constexpr double kStrongEvidence = 8.0;
-constexpr double kStrongEvidenceAlone = 20.0;
-constexpr double kLeastUniformRmsAlone_periods = 0.09;
+constexpr double kStrongEvidenceAlone = 6.5;
+constexpr double kLeastRmsAloneIfAlike_periods = 0.09;
 constexpr double kMedianOfChiSquare = 0.455;  // one degree of freedom
 
 /// Samples that no jump of the torque shakes, nor one of friction, over
@@ -210,24 +213,25 @@ std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> si
   }
   const double rms = growth.rms();
   const bool has_pulses = has_few_levels(signals[0].values);
+  const double typical = typical_rms(u, g) / rms;
+  const bool are_alike = typical > kLeastAlike && typical < kMostAlike;
   // Where g is constant the slope is not a number.
-  const double evidence = (growth.slope - kAcross * std::max(0.0, beside)) / growth.error;
+  const double across = are_alike ? kAcrossIfAlike : kAcross;
+  const double evidence = (growth.slope - across * std::max(0.0, beside)) / growth.error;
   const bool is_large = has_pulses && rms > kLargeRmsBesidePulses_periods;
   if (!(evidence > (is_large ? kLeastEvidenceOfLarge : kLeastEvidence))) return {};
-  const double typical = typical_rms(u, g) / rms;
-  const bool is_uniform = std::max(typical, 1.0 / typical) < kUniform;
   double least_periods = has_pulses ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
   if (channels == 1) {
-    const bool is_sure = is_uniform && evidence > kStrongEvidenceAlone;
+    const bool is_sure = are_alike && evidence > kStrongEvidenceAlone;
     least_periods =
-        std::max(least_periods, is_sure ? kLeastUniformRmsAlone_periods : kLeastRmsAlone_periods);
+        std::max(least_periods, is_sure ? kLeastRmsAloneIfAlike_periods : kLeastRmsAlone_periods);
   }
   const auto class_of_channels = static_cast<std::size_t>(std::min<Index>(channels, 3) - 1);
   if (rms <= least_periods || typical < kLeastTypical[class_of_channels] ||
       typical > kMostTypical) {
     return {};
   }
-  if (channels == 1 || !is_uniform || evidence < kStrongEvidence) {
+  if (channels == 1 || !are_alike || evidence < kStrongEvidence) {
     // Noise may change with the motion over the record, as under a chirp.
     const Growth within = growth_of(u, g, kTimeBlocks);
     const double share = channels == 1 ? kLeastShareInBlocksAlone : kLeastShareInBlocks;

@@ -38,8 +38,9 @@ constexpr double kMostRateRatio = 1.5;
 struct ChannelNoise {
   std::size_t run = 0;
   double period_s = 0.0;
-  double most = 0.0;     ///< an upper bound
-  double certain = 0.0;  ///< of what is noise for certain; 0: none is
+  double deviation = 0.0;  ///< of the channel
+  double most = 0.0;       ///< an upper bound
+  double certain = 0.0;    ///< of what is noise for certain; 0: none is
 };
 
 double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_t self,
@@ -103,7 +104,8 @@ void add_noise_of(std::size_t run, const CheckedRun& checked,
     if (!usable[i]) continue;
     const double unit = signals[i].deviation;
     const double unpredicted = unit * residual_deviation(values, i, usable);
-    ChannelNoise own{run, period_s, std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
+    ChannelNoise own{run, period_s, unit,
+                     std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
     const double white = white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0);
     const bool is_unpredicted =
         white > kLeastWhite * unpredicted && white < kMostWhite * unpredicted;
@@ -127,7 +129,9 @@ std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& 
       double others = 0.0;
       for (const auto& other : of_runs) {
         if (other.run != own.run && are_comparable(own, other)) {
-          others = std::max(others, other.most);
+          // A wider range of the instrument has more noise.
+          const double range = std::max(1.0, own.deviation / other.deviation);
+          others = std::max(others, range * other.most);
         }
       }
       if (others == 0.0 || own.certain <= kTimes * others) continue;
@@ -139,7 +143,7 @@ std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& 
           {own.run,
            {Fault::uneven_noise, channel, 0, record.time_s.front(), own.certain,
             fmt::format(
-                "{} has noise of {:.2g} {} rms, {:.2g} times that of the other runs or more",
+                "{} has noise of {:.2g} {} rms, {:.2g} times what the other runs lead to expect",
                 channel, own.certain, arm::unit(sensor), own.certain / others)}});
     }
   }

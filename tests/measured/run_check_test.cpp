@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 namespace flexarm::measured {
 namespace {
@@ -60,6 +61,10 @@ struct Plant {
            is_it(recorded, findings.front().finding);
   }
 };
+
+void PrintTo(const Plant& plant, std::ostream* out) {
+  *out << to_string(plant.fault);
+}
 
 /// Noise is not told from motion that is as strong at all frequencies.
 constexpr Plant kPlants[] = {{Fault::wrong_payload, plant_wrong_payload, is_payload},

@@ -1,14 +1,15 @@
 #include "measured/checks/data_check_drift.hpp"
 
+#include "measured/checks/data_check_coefficient.hpp"
 #include "measured/spectra/robust.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace flexarm::measured {
 
@@ -80,14 +81,8 @@ Trend trend_beside_torque(const CheckedSignal& signal, const CheckedSignal& torq
   columns.col(1) = slow_lines(one);
   columns.col(2) = slow_lines(torque.values);
   if (torque.deviation > 0.0) columns.col(2) /= torque.deviation;
-  Eigen::Matrix3d normal = columns.transpose() * columns;
-  normal.diagonal().array() += 1e-12;
-  const Eigen::LDLT<Eigen::Matrix3d> factors(normal);
-  const Eigen::Vector3d solution = factors.solve(columns.transpose() * lines);
-  const double left = (lines - columns * solution).squaredNorm() /
-                      static_cast<double>(lines.size() - columns.cols());
-  const double variance = left * factors.solve(Eigen::Vector3d::UnitX())[0];
-  return {solution[0], std::sqrt(variance)};
+  const auto [size, error] = coefficient_of(0, std::move(columns), lines);
+  return {size, error};
 }
 
 std::optional<DataFinding> drift_finding(const CheckedSignal& signal, const Trend& trend,

@@ -39,18 +39,6 @@ struct Outlier {
   double score = 0.0;  ///< over the residual's robust deviation
 };
 
-std::vector<Lagged> regressors_of(std::size_t self, const std::vector<bool>& usable) {
-  std::vector<Lagged> regressors;
-  for (std::size_t i = 0; i < usable.size(); ++i) {
-    if (!usable[i]) continue;
-    const int reach = i == self ? kOwnReach : (i == 0 ? kTorqueReach : kOtherReach);
-    for (int lag = -reach; lag <= reach; ++lag) {
-      if (i != self || lag != 0) regressors.push_back({i, lag});
-    }
-  }
-  return regressors;
-}
-
 /// Reading less prediction for samples [kOwnReach, count - kOwnReach), and the share in the
 /// prediction of each of the channel's own samples, by its lag + kOwnReach.
 struct Prediction {
@@ -60,7 +48,7 @@ struct Prediction {
 
 Prediction predict(const std::vector<Eigen::VectorXd>& values, std::size_t self,
                    const std::vector<bool>& usable) {
-  const auto regressors = regressors_of(self, usable);
+  const auto regressors = regressors_around(self, usable, {kOwnReach, kTorqueReach, kOtherReach});
   const Regression made =
       regress(values, self, regressors, kOwnReach, values[0].size() - 2 * kOwnReach);
   Prediction prediction{{made.left.begin(), made.left.end()}};
@@ -338,6 +326,13 @@ DataFinding finding_of(const CheckedSignal& signal, const std::set<std::size_t>&
   return finding;
 }
 
+/// From rest: what tears the arm loose is predicted by nothing before it.
+std::size_t samples_of_start(const CheckedSignal& signal, bool is_shaken_unseen) {
+  constexpr double kNextToRest = 0.1;  // standard deviations
+  if (is_shaken_unseen) return kOwnReach;
+  return std::abs(signal.values[0]) < kNextToRest * signal.deviation ? 1 : 0;
+}
+
 }  // namespace
 
 std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
@@ -347,20 +342,15 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
   Shaking shaking{
       shaken_samples(values[0], usable[0]), samples_near_stops(signals, usable, kAround), {}, {}};
   const bool stops_are_known = hub_signal(signals, usable) != nullptr;
+  std::vector<std::size_t> starts;
   for (const auto& signal : signals) {
     // An angle and a displacement do not jump.
     const bool is_smooth =
         signal.is(arm::SensorKind::hub_angle) || signal.is(arm::SensorKind::tip_displacement);
-    shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
     const bool is_shaken_unseen = signal.is(arm::SensorKind::tip_acceleration) && !stops_are_known;
+    shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
     shaking.least_elsewhere.push_back(is_shaken_unseen ? options.least_unseen_stop_spike : 0.0);
-  }
-  std::vector<std::size_t> starts;
-  for (const auto& signal : signals) {
-    constexpr double kNextToRest = 0.1;  // standard deviations
-    const bool rests = std::abs(signal.values[0]) < kNextToRest * signal.deviation;
-    const bool is_torn_loose = signal.is(arm::SensorKind::tip_acceleration) && !stops_are_known;
-    starts.push_back(!options.starts_at_rest ? 0 : is_torn_loose ? kOwnReach : rests ? 1 : 0);
+    starts.push_back(options.starts_at_rest ? samples_of_start(signal, is_shaken_unseen) : 0);
   }
   std::vector<std::set<std::size_t>> found(signals.size());
   if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);

@@ -24,6 +24,20 @@ std::vector<Eigen::VectorXd> standardised(std::span<const CheckedSignal> signals
   return values;
 }
 
+std::vector<Lagged> regressors_around(std::size_t self, const std::vector<bool>& usable,
+                                      const Reach& reach) {
+  std::vector<Lagged> regressors;
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    if (!usable[i]) continue;
+    const int here = i == self ? reach.own : (i == 0 ? reach.torque : reach.others);
+    const bool at_once = i != self && (i == 0 || reach.others_at_once);
+    for (int lag = -here; lag <= here; ++lag) {
+      if (lag != 0 || at_once) regressors.push_back({i, lag});
+    }
+  }
+  return regressors;
+}
+
 Regression regress(const std::vector<Eigen::VectorXd>& values, std::size_t self,
                    const std::vector<Lagged>& regressors, Eigen::Index first, Eigen::Index rows) {
   const auto columns = static_cast<Eigen::Index>(regressors.size());

@@ -19,6 +19,19 @@ struct Lagged {
   int lag = 0;
 };
 
+/// How many samples on either side predict one.
+struct Reach {
+  int own = 0;
+  int torque = 0;
+  int others = 0;
+  bool others_at_once = true;  ///< whether the other sensors at the same sample do
+};
+
+/// What a sample of the signal `self` is predicted from: usable signals around it, itself without
+/// this sample. `reach.torque` is of another signal than the torque.
+std::vector<Lagged> regressors_around(std::size_t self, const std::vector<bool>& usable,
+                                      const Reach& reach);
+
 /// Reading less prediction, and the share of each regressor.
 struct Regression {
   Eigen::VectorXd left;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace flexarm::measured {
 
@@ -21,6 +22,7 @@ namespace {
 using Eigen::Index;
 
 constexpr int kJitterReach = 4;  // samples of its own that predict one of a channel
+constexpr int kOthersReach = 2;  // samples of the torque and the other channels
 constexpr std::size_t kFewestRows = 200;
 constexpr Index kShakenFor = 24;                  // samples after a jump of the torque
 constexpr std::size_t kShakenByFrictionFor = 12;  // on either side of a stop of the hub
@@ -82,14 +84,8 @@ std::vector<Index> calm_rows(std::span<const CheckedSignal> signals,
 
 Eigen::VectorXd residual_of(const std::vector<Eigen::VectorXd>& values, std::size_t self,
                             const std::vector<bool>& usable) {
-  std::vector<Lagged> regressors;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!usable[i]) continue;
-    const int reach = i == self ? kJitterReach : 2;
-    for (int lag = -reach; lag <= reach; ++lag) {
-      if (i == 0 || lag != 0) regressors.push_back({i, lag});
-    }
-  }
+  const auto regressors =
+      regressors_around(self, usable, {kJitterReach, kOthersReach, kOthersReach, false});
   return regress(values, self, regressors, kJitterReach, values[0].size() - 2 * kJitterReach).left;
 }
 
@@ -173,78 +169,100 @@ Growth growth_of(const Eigen::ArrayXd& u, const Eigen::ArrayXd& g, Index blocks)
   return growth;
 }
 
-}  // namespace
+/// What the residuals of all channels say at each calm sample.
+struct Scores {
+  Eigen::ArrayXd u;     ///< squared residual along the derivatives, noise has a mean of 1
+  Eigen::ArrayXd g;     ///< u grows by this times the mean square of the jitter [1/period^2]
+  Eigen::ArrayXd rest;  ///< squared residual across the derivatives, a channel
+  Index channels = 0;
+};
 
-std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> signals,
-                                               const std::vector<bool>& usable, double period_s) {
+/// Empty where there are too few samples or a channel leaves no residual.
+std::optional<Scores> scores_of(std::span<const CheckedSignal> signals,
+                                const std::vector<bool>& usable) {
   const auto values = standardised(signals);
-  if (values[0].size() <= 2 * kJitterReach) return {};
+  if (values[0].size() <= 2 * kJitterReach) return std::nullopt;
   const auto rows = calm_rows(signals, usable, values[0]);
-  if (rows.size() < kFewestRows) return {};
-  const auto channels = std::count(usable.begin() + 1, usable.end(), true);
-  if (channels == 0) return {};
-  Eigen::MatrixXd residuals(channels, std::ssize(rows));
-  Eigen::MatrixXd derivatives(channels, std::ssize(rows));
+  if (rows.size() < kFewestRows) return std::nullopt;
+  Scores scores;
+  scores.channels = std::count(usable.begin() + 1, usable.end(), true);
+  if (scores.channels == 0) return std::nullopt;
+  const auto channels = static_cast<double>(scores.channels);
+  Eigen::MatrixXd residuals(scores.channels, std::ssize(rows));
+  Eigen::MatrixXd derivatives(scores.channels, std::ssize(rows));
   Index row = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!usable[i]) continue;
     const Eigen::VectorXd left = residual_of(values, i, usable)(rows);
     const double scale = robust_deviation({left.data(), static_cast<std::size_t>(left.size())});
-    if (scale <= 0.0) return {};
+    if (scale <= 0.0) return std::nullopt;
     residuals.row(row) = left / scale;
     derivatives.row(row) = derivative_of(values[i])(rows) / scale;
     ++row;
   }
   const Eigen::MatrixXd usual = residuals.cwiseMin(kMostResidual).cwiseMax(-kMostResidual);
   Eigen::MatrixXd covariance = usual * usual.transpose() / static_cast<double>(rows.size());
-  covariance.diagonal().array() += kSingular * covariance.trace() / static_cast<double>(channels);
+  covariance.diagonal().array() += kSingular * covariance.trace() / channels;
   const Eigen::MatrixXd inverse = covariance.inverse();
   const Eigen::MatrixXd seen = inverse * derivatives;
-  const Eigen::ArrayXd g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
+  scores.g = seen.cwiseProduct(derivatives).colwise().sum().transpose();
   const Eigen::ArrayXd along = seen.cwiseProduct(residuals).colwise().sum().transpose();
-  const Eigen::ArrayXd u = along.square() / g.max(1e-300);
-  const Growth growth = growth_of(u, g, 1);
-  // Of jitter nothing grows across the derivatives, of an arm that the regression misses all does.
-  double beside = 0.0;
-  if (channels > 1) {
+  scores.u = along.square() / scores.g.max(1e-300);
+  if (scores.channels > 1) {
     const Eigen::MatrixXd whitened = inverse * residuals;
     const Eigen::ArrayXd all = whitened.cwiseProduct(residuals).colwise().sum().transpose();
-    beside = growth_of((all - u) / static_cast<double>(channels - 1), g, 1).slope;
+    scores.rest = (all - scores.u) / (channels - 1.0);
   }
+  return scores;
+}
+
+/// Rms of the jitter in periods; empty: there is none.
+std::optional<double> jitter_rms(const Scores& scores, bool has_pulses) {
+  const auto& [u, g, rest, channels] = scores;
+  const Growth growth = growth_of(u, g, 1);
   const double rms = growth.rms();
-  const bool has_pulses = has_few_levels(signals[0].values);
   const double typical = typical_rms(u, g) / rms;
   const bool are_alike = typical > kLeastAlike && typical < kMostAlike;
-  // Where g is constant the slope is not a number.
+  // Of jitter nothing grows across the derivatives, of an arm that the regression misses all does.
+  const double beside = channels > 1 ? std::max(0.0, growth_of(rest, g, 1).slope) : 0.0;
   const double across = are_alike ? kAcrossIfAlike : kAcross;
-  const double evidence = (growth.slope - across * std::max(0.0, beside)) / growth.error;
+  // Where g is constant the slope is not a number.
+  const double evidence = (growth.slope - across * beside) / growth.error;
   const bool is_large = has_pulses && rms > kLargeRmsBesidePulses_periods;
-  if (!(evidence > (is_large ? kLeastEvidenceOfLarge : kLeastEvidence))) return {};
-  double least_periods = has_pulses ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
+  if (!(evidence > (is_large ? kLeastEvidenceOfLarge : kLeastEvidence))) return std::nullopt;
+  double least_rms = has_pulses ? kLeastRmsBesidePulses_periods : kLeastRms_periods;
   if (channels == 1) {
     const bool is_sure = are_alike && evidence > kStrongEvidenceAlone;
-    least_periods =
-        std::max(least_periods, is_sure ? kLeastRmsAloneIfAlike_periods : kLeastRmsAlone_periods);
+    least_rms =
+        std::max(least_rms, is_sure ? kLeastRmsAloneIfAlike_periods : kLeastRmsAlone_periods);
   }
-  const auto class_of_channels = static_cast<std::size_t>(std::min<Index>(channels, 3) - 1);
-  if (rms <= least_periods || typical < kLeastTypical[class_of_channels] ||
-      typical > kMostTypical) {
-    return {};
-  }
-  if (channels == 1 || !are_alike || evidence < kStrongEvidence) {
-    // Noise may change with the motion over the record, as under a chirp.
-    const Growth within = growth_of(u, g, kTimeBlocks);
-    const double share = channels == 1 ? kLeastShareInBlocksAlone : kLeastShareInBlocks;
-    const double least = has_pulses ? kLeastEvidenceInBlocksOfPulses : kLeastEvidenceInBlocks;
-    if (!(within.slope > least * within.error) || within.rms() < share * rms) {
-      return {};
-    }
-  }
+  const double least_typical =
+      kLeastTypical[static_cast<std::size_t>(std::min<Index>(channels, 3) - 1)];
+  if (rms <= least_rms || typical < least_typical || typical > kMostTypical) return std::nullopt;
+  if (channels > 1 && are_alike && evidence >= kStrongEvidence) return rms;
+  // Noise may change with the motion over the record, as under a chirp.
+  const Growth within = growth_of(u, g, kTimeBlocks);
+  const double least_evidence =
+      has_pulses ? kLeastEvidenceInBlocksOfPulses : kLeastEvidenceInBlocks;
+  const double least_share = channels == 1 ? kLeastShareInBlocksAlone : kLeastShareInBlocks;
+  const bool stays =
+      within.slope > least_evidence * within.error && within.rms() >= least_share * rms;
+  return stays ? std::optional(rms) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> signals,
+                                               const std::vector<bool>& usable, double period_s) {
+  const auto scores = scores_of(signals, usable);
+  if (!scores) return {};
+  const auto rms = jitter_rms(*scores, has_few_levels(signals[0].values));
+  if (!rms) return {};
   return {
-      {Fault::sampling_jitter, "time", 0, 0.0, rms * period_s,
+      {Fault::sampling_jitter, "time", 0, 0.0, *rms * period_s,
        fmt::format("sampling instants jitter by about {:.2g} of the period (rms {:.2g} s) while "
                    "the times are even: errors grow with the rate of change of all channels",
-                   rms, rms * period_s)}};
+                   *rms, *rms * period_s)}};
 }
 
 }  // namespace flexarm::measured

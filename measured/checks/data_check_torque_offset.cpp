@@ -1,8 +1,8 @@
 #include "measured/checks/data_check_torque_offset.hpp"
 
+#include "measured/checks/data_check_coefficient.hpp"
 #include "measured/spectra/robust.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <fmt/format.h>
 
@@ -84,27 +84,6 @@ Eigen::VectorXd slow_acceleration(const CheckedSignal& hub, std::span<const doub
   return lines / std::sqrt(transforms.bins_per_line);
 }
 
-struct Coefficient {
-  double value = 0.0;
-  double error = 0.0;  ///< standard error
-};
-
-/// Of `column`, by least squares.
-Coefficient coefficient_of(Eigen::MatrixXd columns, Eigen::Index column,
-                           const Eigen::VectorXd& target) {
-  Eigen::VectorXd scale = columns.colwise().norm().transpose();
-  scale = scale.array().max(1e-300);
-  columns = columns * scale.cwiseInverse().asDiagonal();
-  Eigen::MatrixXd normal = columns.transpose() * columns;
-  normal.diagonal().array() += 1e-12;
-  const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
-  const Eigen::VectorXd solution = factors.solve(columns.transpose() * target);
-  const double variance = (target - columns * solution).squaredNorm() /
-                          static_cast<double>(target.size() - columns.cols());
-  const double inverse = factors.solve(Eigen::VectorXd::Unit(columns.cols(), column))[column];
-  return {solution[column] / scale[column], std::sqrt(variance * inverse) / scale[column]};
-}
-
 }  // namespace
 
 std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
@@ -129,7 +108,7 @@ std::vector<DataFinding> check_torque_offset(const Comparison& comparison,
   std::vector<Coefficient> offsets;
   for (const double fades_over : kFades) {
     columns.col(4) = -answer(near_rest(direction, velocity, fades_over));
-    offsets.push_back(coefficient_of(columns, 1, target));
+    offsets.push_back(coefficient_of(1, columns, target));
   }
   const auto [offset, error] = offsets.front();
   const double size = std::abs(offset);

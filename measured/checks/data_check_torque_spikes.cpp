@@ -29,18 +29,6 @@ constexpr double kMostPower = 0.9;  // of the torque, in its spikes
 constexpr double kAnswer = 60.0;
 constexpr Index kAnswerSide = 3;
 
-std::vector<Lagged> torque_regressors(const std::vector<bool>& usable) {
-  std::vector<Lagged> regressors;
-  for (std::size_t i = 0; i < usable.size(); ++i) {
-    if (!usable[i]) continue;
-    const int reach = i == 0 ? kTorqueSide : kChannelSide;
-    for (int lag = -reach; lag <= reach; ++lag) {
-      if (i != 0 || lag != 0) regressors.push_back({i, lag});
-    }
-  }
-  return regressors;
-}
-
 /// Residuals of the torque, zero for the first and last kTorqueSide samples, and the share of its
 /// own samples in them by lag.
 struct TorqueResidual {
@@ -58,7 +46,7 @@ struct TorqueResidual {
 };
 
 TorqueResidual torque_residual(const Values& values, const std::vector<bool>& usable) {
-  const auto regressors = torque_regressors(usable);
+  const auto regressors = regressors_around(0, usable, {kTorqueSide, 0, kChannelSide});
   const Index samples = values[0].size();
   const Regression made = regress(values, 0, regressors, kTorqueSide, samples - 2 * kTorqueSide);
   TorqueResidual residual{Eigen::VectorXd::Zero(samples), {}};

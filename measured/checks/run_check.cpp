@@ -1,8 +1,8 @@
 #include "measured/checks/run_check.hpp"
 
 #include "measured/checks/data_check_described.hpp"
-#include "measured/checks/data_check_signal.hpp"
 #include "measured/checks/run_check_noise.hpp"
+#include "measured/checks/run_check_signals.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,6 @@ namespace flexarm::measured {
 
 namespace {
 
-/// Of a long run the first samples say enough.
 constexpr std::size_t kMostComparedSamples = 4096;
 constexpr std::size_t kFewestComparedSamples = 128;
 /// Payloads are compared by this share of the beam's mass plus their own: a beam hardly feels less.
@@ -38,21 +37,13 @@ constexpr double kAsGood = 0.01;
 class PayloadSearch {
  public:
   PayloadSearch(const CheckedRun& run, const DescribedArms& arms)
-      : run_(run), arms_(arms), felt_kg_(kFelt * arms.beam_mass_kg) {
-    const auto& record = *run.record;
-    const std::size_t count = std::min(record.time_s.size(), kMostComparedSamples);
-    signals_ = signals_of(record, 0, count);
-    for (const auto& signal : signals_) {
-      usable_.push_back(signal.deviation > 0.0 &&
-                        std::ranges::count(run.findings, signal.name, &DataFinding::channel) == 0);
-    }
-    const double period_s =
-        (record.time_s[count - 1] - record.time_s[0]) / static_cast<double>(count - 1);
-    transforms_ = transform(signals_, period_s, run.starts_at_rest);
-  }
+      : run_(run),
+        arms_(arms),
+        felt_kg_(kFelt * arms.beam_mass_kg),
+        compared_(signals_of(run, kMostComparedSamples)) {}
 
   double distance_at(double factor) const {
-    return described_distance(signals_, usable_, transforms_,
+    return described_distance(compared_.signals, compared_.usable, compared_.transforms,
                               arms_.with(payload_at(factor)).described);
   }
 
@@ -68,9 +59,7 @@ class PayloadSearch {
   const CheckedRun& run_;
   const DescribedArms& arms_;
   double felt_kg_ = 0.0;
-  std::vector<CheckedSignal> signals_;
-  std::vector<bool> usable_;
-  Transforms transforms_;
+  RunSignals compared_;
 };
 
 /// The factor of the payload with which the described arm is nearest.
@@ -129,10 +118,8 @@ std::optional<std::size_t> odd_one(const std::vector<Nearest>& found) {
 }
 
 bool is_comparable(const CheckedRun& run) {
-  const bool is_sound = std::ranges::none_of(run.findings, [](const DataFinding& finding) {
-    return finding.channel == "time" || finding.channel == "torque";
-  });
-  return is_sound && run.record->time_s.size() >= kFewestComparedSamples;
+  return !has_finding(run, "time") && !has_finding(run, "torque") &&
+         run.record->time_s.size() >= kFewestComparedSamples;
 }
 
 std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,

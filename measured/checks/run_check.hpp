@@ -40,8 +40,8 @@ struct RunFinding {
 /// the described arm is nearest to a run (described_distance) differs from what is stated in this
 /// run alone. What the arm file has wrong for all runs is no finding.
 ///
-/// Runs with a finding in their times are left out, for payloads those with one in their torque,
-/// and channels with one.
+/// Runs with a finding in their times are left out, and channels with one. For payloads, runs with
+/// one in their torque are left out as well.
 std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms);
 
 /// The findings of `check_data` and `check_runs`, a list a run; empty for what is no `time` run.

@@ -1,7 +1,7 @@
 #include "measured/checks/run_check_noise.hpp"
 
 #include "measured/checks/data_check_prediction.hpp"
-#include "measured/checks/data_check_transform.hpp"
+#include "measured/checks/run_check_signals.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace flexarm::measured {
 namespace {
 
 constexpr std::size_t kFewestNoiseSamples = 256;
-constexpr std::size_t kMostNoiseSamples = 16384;  // of a long run the first samples say enough
+constexpr std::size_t kMostNoiseSamples = 16384;
 constexpr int kOwnSamples = 3;
 constexpr int kOtherSamples = 2;
 /// Bands of the upper half of the spectrum. The strongest may have a resonance; of the others the
@@ -37,22 +37,18 @@ constexpr double kMostRateRatio = 1.5;
 /// Standard deviation of a channel's noise in a run, in the channel's unit.
 struct ChannelNoise {
   std::size_t run = 0;
+  arm::Sensor sensor;
   double period_s = 0.0;
   double deviation = 0.0;  ///< of the channel
   double most = 0.0;       ///< an upper bound
   double certain = 0.0;    ///< of what is noise for certain; 0: none is
 };
 
+/// The residual of a prediction, as the noise of one sample, in the channel's standard deviations.
 double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_t self,
                           const std::vector<bool>& usable) {
-  std::vector<Lagged> regressors;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!usable[i]) continue;
-    const int reach = i == self ? kOwnSamples : kOtherSamples;
-    for (int lag = -reach; lag <= reach; ++lag) {
-      if (i != self || lag != 0) regressors.push_back({i, lag});
-    }
-  }
+  const auto regressors =
+      regressors_around(self, usable, {kOwnSamples, kOtherSamples, kOtherSamples});
   const Regression made =
       regress(values, self, regressors, kOwnSamples, values[0].size() - 2 * kOwnSamples);
   // The noise of the channel's own neighbours is in the residual with their shares.
@@ -82,29 +78,18 @@ std::optional<double> white_upper_half(const Transform& transform, double window
   return std::sqrt(sum / static_cast<double>(kUpperBands - 1));
 }
 
+using NoiseOfChannels = std::map<std::string, std::vector<ChannelNoise>>;
+
 /// Adds what a run says of its channels.
-void add_noise_of(std::size_t run, const CheckedRun& checked,
-                  std::map<std::string, std::vector<ChannelNoise>>& noise) {
-  const auto has_finding = [&](std::string_view channel) {
-    return std::ranges::count(checked.findings, channel, &DataFinding::channel) > 0;
-  };
-  const TimeRecord& record = *checked.record;
-  const std::size_t count = std::min(record.time_s.size(), kMostNoiseSamples);
-  if (count < kFewestNoiseSamples || has_finding("time")) return;
-  const auto signals = signals_of(record, 0, count);
-  std::vector<bool> usable;
-  for (const auto& signal : signals) {
-    usable.push_back(signal.deviation > 0.0 && !has_finding(signal.name));
-  }
-  const double period_s =
-      (record.time_s[count - 1] - record.time_s[0]) / static_cast<double>(count - 1);
-  const Transforms transforms = transform(signals, period_s, checked.starts_at_rest);
+void add_noise_of(std::size_t index, const CheckedRun& run, NoiseOfChannels& noise) {
+  if (run.record->time_s.size() < kFewestNoiseSamples || has_finding(run, "time")) return;
+  const auto [signals, usable, transforms] = signals_of(run, kMostNoiseSamples);
   const auto values = standardised(signals);
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (!usable[i]) continue;
     const double unit = signals[i].deviation;
     const double unpredicted = unit * residual_deviation(values, i, usable);
-    ChannelNoise own{run, period_s, unit,
+    ChannelNoise own{index, *signals[i].sensor, transforms.period_s, unit,
                      std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
     const double white = white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0);
     const bool is_unpredicted =
@@ -121,7 +106,8 @@ bool are_comparable(const ChannelNoise& a, const ChannelNoise& b) {
 }  // namespace
 
 std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& runs) {
-  std::map<std::string, std::vector<ChannelNoise>> noise;
+  if (runs.size() < 2) return {};
+  NoiseOfChannels noise;
   for (std::size_t i = 0; i < runs.size(); ++i) add_noise_of(i, runs[i], noise);
   std::vector<RunFinding> findings;
   for (const auto& [channel, of_runs] : noise) {
@@ -135,16 +121,12 @@ std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& 
         }
       }
       if (others == 0.0 || own.certain <= kTimes * others) continue;
-      const TimeRecord& record = *runs[own.run].record;
-      const auto sensor = std::ranges::find_if(record.channels, [&](const Channel& one) {
-                            return arm::to_string(one.sensor) == channel;
-                          })->sensor;
       findings.push_back(
           {own.run,
-           {Fault::uneven_noise, channel, 0, record.time_s.front(), own.certain,
+           {Fault::uneven_noise, channel, 0, runs[own.run].record->time_s.front(), own.certain,
             fmt::format(
                 "{} has noise of {:.2g} {} rms, {:.2g} times what the other runs lead to expect",
-                channel, own.certain, arm::unit(sensor), own.certain / others)}});
+                channel, own.certain, arm::unit(own.sensor), own.certain / others)}});
     }
   }
   return findings;

@@ -11,8 +11,8 @@ namespace flexarm::measured {
 /// channel's neighbours in time nor the other channels predict it. In the other runs the lowest
 /// band of the spectrum and the prediction's residual are upper bounds.
 ///
-/// Noise in proportion to the channel's standard deviation is that of the instrument's range, and no
-/// finding.
+/// Noise in proportion to the channel's standard deviation is that of the instrument's range, and
+/// no finding.
 ///
 /// Runs with a finding in their times are left out, and channels with one.
 std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& runs);

@@ -124,6 +124,26 @@ TEST(CleanData, ShowNoFault) {
   }
 }
 
+/// Files that were claimed once: friction that starts and stops the hub passed for jitter, an
+/// offset of the torque, a spike.
+TEST(CleanData, BesideFrictionShowNoFault) {
+  for (const std::uint64_t seed :
+       {830059U, 830696U, 970201U, 970205U, 980201U, 980262U, 950025U, 820236U}) {
+    const auto record = clean(seed);
+    const auto findings = check_data(record.record, record.options);
+    EXPECT_TRUE(findings.empty()) << report(record, findings);
+  }
+}
+
+/// An angle that creeps by its last digit before and after friction holds it passed for stuck.
+TEST(CleanData, ThatCreepIsNotStuck) {
+  for (const std::uint64_t seed : {820177U, 830620U}) {
+    const auto record = clean_without_noise(seed);
+    const auto findings = check_data(record.record, record.options);
+    EXPECT_TRUE(findings.empty()) << report(record, findings);
+  }
+}
+
 /// A hub that friction holds repeats its angle to the bit, and so does a tip that has come to rest.
 TEST(CleanData, ShowNoFaultWithoutNoise) {
   for (int file = 0; file < kFiles; ++file) {

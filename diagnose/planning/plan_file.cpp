@@ -277,7 +277,7 @@ class PlanReader : measured::TomlFaults {
         if (name.str() == "kind") continue;
         std::string text;
         if (const auto* word = value.as_string()) text = word->get();
-        if (value.is_number()) text = fmt::format("{}", *value.value<double>());
+        if (const auto number = measured::number_of(value)) text = fmt::format("{}", *number);
         response::set_key(excitation, name.str(), text, {"kind"});
       }
       return excitation;

@@ -217,17 +217,15 @@ class Reader {
 
   std::optional<double> number(const std::string& key, const toml::node& node,
                                const arm::Range& range, const std::string& unit) {
-    const auto* integer = node.as_integer();
-    const auto* floating = node.as_floating_point();
-    if (integer == nullptr && floating == nullptr) {
+    const auto value = number_of(node);
+    if (!value) {
       wrong_type(key, node,
                  fmt::format("{} [{}]{}", to_string(range), unit,
                              node.is_string() ? ", without quotes or unit" : ""));
       return std::nullopt;
     }
-    const double value = integer != nullptr ? static_cast<double>(integer->get()) : floating->get();
-    if (range.contains(value)) return value;
-    faults_.emplace(line_of(key), arm::out_of_range(key, value, unit, to_string(range)).what());
+    if (range.contains(*value)) return value;
+    faults_.emplace(line_of(key), arm::out_of_range(key, *value, unit, to_string(range)).what());
     return std::nullopt;
   }
 

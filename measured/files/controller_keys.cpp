@@ -172,8 +172,8 @@ class ControllerReader {
       is_matrix = numbers != nullptr;
       rows.emplace_back();
       for (std::size_t j = 0; is_matrix && j < numbers->size(); ++j) {
-        const auto number = (*numbers)[j].value<double>();
-        is_matrix = (*numbers)[j].is_number();
+        const auto number = number_of((*numbers)[j]);
+        is_matrix = number.has_value();
         rows.back().push_back(number.value_or(0.0));
       }
     }

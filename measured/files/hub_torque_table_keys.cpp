@@ -77,11 +77,12 @@ class HubTorqueTableReader {
       return false;
     }
     for (const auto& element : *list) {
-      if (!element.is_number()) {
+      const auto number = number_of(element);
+      if (!number) {
         wrong(key, element, "a list of numbers");
         return false;
       }
-      numbers.push_back(*element.value<double>());
+      numbers.push_back(*number);
     }
     return true;
   }

@@ -29,7 +29,7 @@ int line_of_node(const toml::node& node) {
 }
 
 std::optional<double> finite_number(const toml::node& node) {
-  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  const auto value = number_of(node);
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

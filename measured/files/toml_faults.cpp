@@ -57,12 +57,13 @@ std::optional<std::size_t> TomlFaults::read_word(const std::string& key, const t
 
 void TomlFaults::read_number(const std::string& key, const toml::node& node, const char* unit,
                              const arm::Range& range, double& number) {
-  if (!node.is_number()) {
+  const auto value = number_of(node);
+  if (!value) {
     const std::string in_unit = *unit == '\0' ? "" : fmt::format(" [{}]", unit);
     wrong(key, node, fmt::format("{}{}", to_string(range), in_unit));
     return;
   }
-  number = *node.value<double>();
+  number = *value;
   if (!range.contains(number)) {
     fault(line_of(node), arm::out_of_range(key, number, unit, to_string(range)).what());
   }

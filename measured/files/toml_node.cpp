@@ -32,4 +32,10 @@ std::string equals_value(const toml::node& node) {
   return "";
 }
 
+std::optional<double> number_of(const toml::node& node) {
+  if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
+  if (const auto* number = node.as_floating_point()) return number->get();
+  return std::nullopt;
+}
+
 }  // namespace flexarm::measured

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -174,35 +176,41 @@ std::string without_blanks(string_view text) {
   return out;
 }
 
-/// Whether `typed` is that spelling; with `fold` in whatever case.
-bool is_spelling(string_view typed, string_view spelling, bool fold) {
-  return fold ? in_lower_case(typed) == in_lower_case(spelling) : typed == spelling;
+/// Units by their spellings without blanks.
+using Spellings = std::map<std::string, string_view, std::less<>>;
+
+/// Of two units that are spelled alike the first stands.
+template <class Units>
+Spellings spellings_of(const Units& units, bool in_lower) {
+  Spellings spellings;
+  for (const auto& unit : units) {
+    const auto add = [&](string_view spelling) {
+      spellings.emplace(in_lower ? in_lower_case(spelling) : std::string(spelling), unit.unit);
+    };
+    add(without_blanks(unit.unit));
+    std::ranges::for_each(unit.others, add);
+  }
+  return spellings;
 }
 
-string_view find_word(string_view typed, bool fold) {
-  for (const auto& word : unit_words()) {
-    if (is_spelling(typed, word.unit, fold)) return word.unit;
-    for (const auto other : word.others) {
-      if (is_spelling(typed, other, fold)) return word.unit;
-    }
-  }
-  return {};
+struct SpelledUnits {
+  Spellings words;
+  Spellings compounds;
+};
+
+SpelledUnits spelled_units(bool in_lower) {
+  return {spellings_of(unit_words(), in_lower), spellings_of(compound_units(), in_lower)};
 }
 
-string_view find_whole(string_view typed, bool fold) {
-  for (const auto& unit : compound_units()) {
-    if (is_spelling(typed, without_blanks(unit.unit), fold)) return unit.unit;
-    for (const auto other : unit.others) {
-      if (is_spelling(typed, other, fold)) return unit.unit;
-    }
-  }
-  return {};
+string_view find_in(const Spellings& spellings, string_view typed) {
+  const auto found = spellings.find(typed);
+  return found == spellings.end() ? string_view{} : found->second;
 }
 
 /// Words between separators, with their powers.
 class FactorReader {
  public:
-  FactorReader(string_view text, bool fold) : text_(text), fold_(fold) {}
+  FactorReader(string_view text, const Spellings& words) : text_(text), words_(words) {}
 
   std::optional<std::map<string_view, int>> read() {
     std::map<string_view, int> factors;
@@ -211,7 +219,7 @@ class FactorReader {
       skip_blanks();
       const std::size_t begin = at_;
       while (at_ < text_.size() && is_unit_letter(text_[at_])) ++at_;
-      const string_view word = find_word(text_.substr(begin, at_ - begin), fold_);
+      const string_view word = find_in(words_, text_.substr(begin, at_ - begin));
       if (word.empty() || word == "1") return std::nullopt;
       const auto power = read_power();
       if (!power) return std::nullopt;
@@ -252,14 +260,14 @@ class FactorReader {
   }
 
   string_view text_;
-  bool fold_;
+  const Spellings& words_;
   std::size_t at_ = 0;
 };
 
-string_view find_spelled(string_view text, bool fold) {
-  if (const auto unit = find_word(text, fold); !unit.empty()) return unit;
-  if (const auto unit = find_whole(without_blanks(text), fold); !unit.empty()) return unit;
-  const auto factors = FactorReader(text, fold).read();
+string_view find_spelled(string_view text, const SpelledUnits& units) {
+  if (const auto unit = find_in(units.words, text); !unit.empty()) return unit;
+  if (const auto unit = find_in(units.compounds, without_blanks(text)); !unit.empty()) return unit;
+  const auto factors = FactorReader(text, units.words).read();
   if (!factors) return {};
   for (const auto& unit : compound_units()) {
     if (std::ranges::count(unit.factors, *factors) > 0) return unit.unit;
@@ -270,13 +278,13 @@ string_view find_spelled(string_view text, bool fold) {
 }  // namespace
 
 std::string find_unit(string_view text) {
+  static const SpelledUnits as_written = spelled_units(false);
+  static const SpelledUnits in_lower = spelled_units(true);
   const std::string plain = in_plain_signs(trimmed(text));
-  for (const bool fold : {false, true}) {
-    // A capital tells S (siemens), G (gauss) or M apart: units of one letter are not folded.
-    if (fold && plain.size() == 1) continue;
-    if (const auto unit = find_spelled(plain, fold); !unit.empty()) return std::string(unit);
-  }
-  return {};
+  string_view unit = find_spelled(plain, as_written);
+  // A capital tells S (siemens), G (gauss) or M apart: units of one letter are not folded.
+  if (unit.empty() && plain.size() != 1) unit = find_spelled(in_lower_case(plain), in_lower);
+  return std::string(unit);
 }
 
 bool is_canonical_unit(string_view unit) {

@@ -96,8 +96,9 @@ struct DataCheckOptions {
   double floor_share = 0.5;
   /// Spike: what neighbours in time and in other channels do not predict is > this many of its own
   /// robust deviations, and > `least_spike` deviations of the channel; within twelve samples after
-  /// a jump of the torque or about a stop of the hub, > `least_shaken_spike`, where both are twice
-  /// that. Of a tip acceleration whose record does not show when the hub stops, anywhere, >
+  /// a jump of the torque or about a stop of the hub, > `least_shaken_spike`, of a tip
+  /// acceleration beside a known torque twice that, and twice again where both meet. Of a tip
+  /// acceleration whose record does not show when the hub stops, anywhere, >
   /// `least_unseen_stop_spike`.
   double spike_deviations = 8.0;
   double least_spike = 0.6;
@@ -115,10 +116,8 @@ struct DataCheckOptions {
   /// by > `rough_unit_factor`.
   double unit_factor = 2.0;
   double rough_unit_factor = 4.0;
-  /// Scale: no unit, and off by a factor > this; > `least_torque_scale` by the described arm's
-  /// answer to the torque, on which friction has an influence.
+  /// Scale: no unit, and off by a factor > this.
   double least_scale = 1.2;
-  double least_torque_scale = 1.16;
   /// Offset: at rest > `least_offset` deviations of the channel, and > this many standard errors.
   double least_offset = 0.1;
   double least_torque_offset = 0.1;

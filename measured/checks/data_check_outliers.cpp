@@ -348,12 +348,15 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     const bool is_smooth =
         signal.is(arm::SensorKind::hub_angle) || signal.is(arm::SensorKind::tip_displacement);
     const bool is_shaken_unseen = signal.is(arm::SensorKind::tip_acceleration) && !stops_are_known;
-    shaking.least.push_back(is_smooth ? 0.0 : options.least_shaken_spike);
+    const bool jumps = signal.is(arm::SensorKind::tip_acceleration) && usable[0];
+    shaking.least.push_back(is_smooth ? 0.0 : (jumps ? 2.0 : 1.0) * options.least_shaken_spike);
     shaking.least_elsewhere.push_back(is_shaken_unseen ? options.least_unseen_stop_spike : 0.0);
     starts.push_back(options.starts_at_rest ? samples_of_start(signal, is_shaken_unseen) : 0);
   }
   std::vector<std::set<std::size_t>> found(signals.size());
   if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);
+  const Shaking at_ends = shaking;
+  shaking.stops = none_if_many(shaking.stops);
   const auto take = [&](const std::vector<Outlier>& chosen) {
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;
@@ -374,7 +377,7 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     }
   }
   repair(values, found, usable);
-  if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);
+  if (ends_are_sound) repair_ends(values, usable, starts, at_ends, options, found);
   std::vector<DataFinding> findings;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (found[i].empty()) continue;

@@ -65,7 +65,8 @@ constexpr double kMedianOfChiSquare = 0.455;  // one degree of freedom
 std::vector<Index> calm_rows(std::span<const CheckedSignal> signals,
                              const std::vector<bool>& usable, const Eigen::VectorXd& torque) {
   const Index samples = torque.size();
-  std::vector<bool> is_shaken = samples_near_stops(signals, usable, kShakenByFrictionFor);
+  std::vector<bool> is_shaken =
+      none_if_many(samples_near_stops(signals, usable, kShakenByFrictionFor));
   const auto shake = [&](Index from, Index to) {
     for (Index k = std::max<Index>(0, from); k < std::min(samples, to); ++k) {
       is_shaken[static_cast<std::size_t>(k)] = true;

@@ -28,37 +28,53 @@ std::vector<Index> torque_jumps(const Eigen::VectorXd& torque) {
   return jumps;
 }
 
-std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
-                                     const std::vector<bool>& usable, std::size_t reach) {
-  constexpr std::size_t kMean = 5;
+namespace {
+
+/// Marks `reach` samples on either side of where the hub's mean velocity over `window` samples
+/// begins or ends to exceed its noise, or turns. An angle has it by differences.
+void mark_stops(const CheckedSignal& hub, std::size_t window, std::size_t reach,
+                std::vector<bool>& shaken) {
   constexpr double kNoises = 4.0;
   constexpr double kLeastMotion = 0.03;  // standard deviations
-  constexpr double kMostShaken = 0.25;   // of the samples
-  const std::size_t samples = signals[0].values.size();
-  const std::vector<bool> none(samples, false);
-  const CheckedSignal* hub = hub_signal(signals, usable);
-  if (hub == nullptr) return none;
-  // By mean differences of an angle.
-  const bool is_angle = hub->is(arm::SensorKind::hub_angle);
+  const bool is_angle = hub.is(arm::SensorKind::hub_angle);
+  const std::size_t samples = shaken.size();
   std::vector<double> motion;
-  for (std::size_t k = 0; k + kMean < samples; ++k) {
-    motion.push_back(is_angle ? hub->values[k + kMean] - hub->values[k]
-                              : mean(hub->values.subspan(k, kMean)));
+  for (std::size_t k = 0; k + window < samples; ++k) {
+    motion.push_back(is_angle ? hub.values[k + window] - hub.values[k]
+                              : mean(hub.values.subspan(k, window)));
   }
-  const double noise = reading_noise(hub->values) *
-                       (is_angle ? std::sqrt(2.0) : 1.0 / std::sqrt(static_cast<double>(kMean)));
+  const double noise = reading_noise(hub.values) *
+                       (is_angle ? std::sqrt(2.0) : 1.0 / std::sqrt(static_cast<double>(window)));
   const double rest = std::max(kNoises * noise, kLeastMotion * standard_deviation(motion));
   const auto state = [&](double value) { return value > rest ? 1 : (value < -rest ? -1 : 0); };
-  std::vector<bool> shaken = none;
   for (std::size_t k = 1; k < motion.size(); ++k) {
     if (state(motion[k]) == state(motion[k - 1])) continue;
     const std::size_t from = k > reach ? k - reach : 0;
-    const std::size_t to = std::min(samples, k + kMean + reach);
+    const std::size_t to = std::min(samples, k + window + reach);
     std::fill(shaken.begin() + static_cast<std::ptrdiff_t>(from),
               shaken.begin() + static_cast<std::ptrdiff_t>(to), true);
   }
+}
+
+}  // namespace
+
+std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
+                                     const std::vector<bool>& usable, std::size_t reach) {
+  constexpr std::size_t kWindow = 5;
+  constexpr std::size_t kShortStop = 2;  // seen in a velocity alone
+  std::vector<bool> shaken(signals[0].values.size(), false);
+  const CheckedSignal* hub = hub_signal(signals, usable);
+  if (hub == nullptr) return shaken;
+  mark_stops(*hub, kWindow, reach, shaken);
+  if (!hub->is(arm::SensorKind::hub_angle)) mark_stops(*hub, kShortStop, reach, shaken);
+  return shaken;
+}
+
+std::vector<bool> none_if_many(std::vector<bool> shaken) {
+  constexpr double kMany = 0.25;
   const auto count = static_cast<double>(std::ranges::count(shaken, true));
-  return count > kMostShaken * static_cast<double>(samples) ? none : shaken;
+  if (count > kMany * static_cast<double>(shaken.size())) shaken.assign(shaken.size(), false);
+  return shaken;
 }
 
 }  // namespace flexarm::measured

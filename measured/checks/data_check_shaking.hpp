@@ -16,9 +16,13 @@ namespace flexarm::measured {
 std::vector<Eigen::Index> torque_jumps(const Eigen::VectorXd& torque);
 
 /// Samples about a stop, a start or a turn of the hub, where friction jumps; `reach` samples on
-/// either side. None where they are so many that the residual of a prediction knows them. The hub
-/// moves where its mean velocity over five samples exceeds its noise.
+/// either side. The hub moves where its mean velocity over five samples, of a velocity also over
+/// two, exceeds its noise.
 std::vector<bool> samples_near_stops(std::span<const CheckedSignal> signals,
                                      const std::vector<bool>& usable, std::size_t reach);
+
+/// None of these samples where they are more than a quarter of all: the residual of a prediction
+/// knows what so many of them do.
+std::vector<bool> none_if_many(std::vector<bool> shaken);
 
 }  // namespace flexarm::measured

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace flexarm::measured {
 
@@ -65,17 +66,30 @@ std::vector<RigidQuantity> rigid_quantities(const Comparison& comparison) {
   return all;
 }
 
+/// `votes` has those of identities. A signal whose relation to another contradicts an identity of
+/// the two, as one that friction shakes may, has no rigid motion: it says nothing here.
 void add_rigid_motion(const Comparison& comparison, std::vector<Vote>& votes) {
   const auto all = rigid_quantities(comparison);
+  std::vector<Vote> rigid;
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = i + 1; j < all.size(); ++j) {
       add_rigid(comparison, all[i].quantity, all[j].quantity, all[i].sign * all[j].sign,
-                kRigidWeight, votes);
+                kRigidWeight, rigid);
     }
     if (comparison.usable[0]) {
-      add_rigid(comparison, all[i].quantity, {0, 0}, all[i].sign, kTorqueWeight, votes);
+      add_rigid(comparison, all[i].quantity, {0, 0}, all[i].sign, kTorqueWeight, rigid);
     }
   }
+  std::vector<bool> contradicts(comparison.signals.size(), false);
+  for (const Vote& vote : rigid) {
+    for (const Vote& identity : votes) {
+      if (std::minmax(vote.a, vote.b) != std::minmax(identity.a, identity.b)) continue;
+      if (vote.sign != identity.sign) contradicts[vote.a] = contradicts[vote.b] = true;
+    }
+  }
+  std::ranges::copy_if(rigid, std::back_inserter(votes), [&](const Vote& vote) {
+    return !contradicts[vote.a] && !contradicts[vote.b];
+  });
 }
 
 /// Extremes of the energy taken up since the first sample: sum of torque times turn, exact for an

@@ -202,13 +202,12 @@ DataFinding scale_finding(const Comparison& comparison, Fault fault,
 std::vector<DataFinding> check_scale(const Comparison& comparison, std::vector<Ratio> ratios) {
   std::erase_if(ratios, [](const Ratio& ratio) { return !ratio.narrow; });
   const auto tolerance = [&options = comparison.options](const Ratio& ratio) {
-    return ratio.log10_noise +
-           std::log10(ratio.b == 0 ? options.least_torque_scale : options.least_scale);
+    return ratio.log10_noise + std::log10(options.least_scale);
   };
   auto suspects = suspects_of(comparison, ratios, tolerance, false);
   std::erase_if(suspects, [&options = comparison.options](const Suspect& suspect) {
-    const double least = suspect.signal == 0 ? options.least_torque_scale : options.least_scale;
-    return std::abs(suspect.log10_scale) < std::log10(least) || suspect.unexplained > 0.0;
+    return std::abs(suspect.log10_scale) < std::log10(options.least_scale) ||
+           suspect.unexplained > 0.0;
   });
   if (suspects.empty()) return {};
   return {scale_finding(comparison, Fault::wrong_scale, suspects)};

@@ -125,10 +125,12 @@ TEST(CleanData, ShowNoFault) {
 }
 
 /// Files that were claimed once: friction that starts and stops the hub passed for jitter, an
-/// offset of the torque, a spike.
+/// offset of the torque, a scale of it, an inverted acceleration, and a spike: at a stop of 8 ms,
+/// at the end of a record, just after a jump of the torque.
 TEST(CleanData, BesideFrictionShowNoFault) {
   for (const std::uint64_t seed :
-       {830059U, 830696U, 970201U, 970205U, 980201U, 980262U, 950025U, 820236U}) {
+       {830059U, 830696U, 970201U, 970205U, 980201U, 980262U, 950025U, 820236U, 821797U, 821929U,
+        990168U, 990176U, 1020151U, 980233U}) {
     const auto record = clean(seed);
     const auto findings = check_data(record.record, record.options);
     EXPECT_TRUE(findings.empty()) << report(record, findings);

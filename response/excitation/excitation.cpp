@@ -160,8 +160,8 @@ SampledTorque sampled(const Multisine& signal, const SampleGrid& grid) {
                             "0, or at least 2: one of so many odd lines is a detection line");
   }
   const SampleGrid period{period_of(signal, grid), grid.period_s};
-  const auto factor = static_cast<double>(largest_prime_factor(period.samples));
-  if (static_cast<double>(period.samples) * factor > kMostTransformWork) {
+  if (period.samples > kMostSamplesOfALargeFactor &&
+      largest_prime_factor(period.samples) > kLargestFactorOfATransform) {
     throw InputError(
         fmt::format("multisine: a period of {} samples has a prime factor too large for the FFT; "
                     "use {} samples, {:.9g} s",

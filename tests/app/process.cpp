@@ -17,12 +17,8 @@ namespace flexarm::testing_app {
 
 namespace {
 
-/// Time to start and be at work; the sanitizers slow it about tenfold.
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::chrono::milliseconds kAtWork(3000);
-#else
-constexpr std::chrono::milliseconds kAtWork(300);
-#endif
+/// Time to start and be at work.
+constexpr std::chrono::milliseconds kAtWork(kIsSanitized ? 3000 : 300);
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 

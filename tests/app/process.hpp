@@ -5,6 +5,13 @@
 
 namespace flexarm::testing_app {
 
+/// Whether this build has a sanitizer, which slows programs about tenfold.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kIsSanitized = true;
+#else
+inline constexpr bool kIsSanitized = false;
+#endif
+
 /// How a program ended, and what it printed.
 struct Ended {
   int status = -1;  ///< exit status; 128 + signal when a signal ended it, as a shell says

@@ -192,7 +192,8 @@ TEST(Chirp, GoesFromOneFrequencyToTheOther) {
 }
 
 TEST(LineSpectrum, IsTheSumOfItsLinesForAnyLength) {
-  for (const std::size_t samples : {2U, 3U, 8U, 30U, 97U}) {
+  // Those from 101 on by a convolution.
+  for (const std::size_t samples : {2U, 3U, 8U, 30U, 97U, 101U, 206U, 1009U}) {
     std::vector<std::complex<double>> lines(samples / 2 + 1);
     for (std::size_t k = 0; k < lines.size(); ++k) {
       lines[k] = std::polar(1.0 + static_cast<double>(k), 0.7 * static_cast<double>(k));
@@ -284,12 +285,12 @@ INSTANTIATE_TEST_SUITE_P(, ExcitationMistake, testing::ValuesIn(kMistakes),
 
 TEST(Excitation, APrimePeriodThatCannotBeTransformedIsRefusedWithOneThatCan) {
   try {
-    sample(Multisine{0.1, 1.0, 50.0}, {1'000'003, 0.002});
+    sample(Multisine{0.1, 1.0, 50.0}, {10'000'019, 0.002});
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "multisine: a period of 1000003 samples has a prime factor too large for the FFT; "
-                 "use 1012500 samples, 2025 s");
+                 "multisine: a period of 10000019 samples has a prime factor too large for the FFT; "
+                 "use 10077696 samples, 20155.392 s");
   }
 }
 

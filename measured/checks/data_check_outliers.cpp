@@ -355,6 +355,7 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
   }
   std::vector<std::set<std::size_t>> found(signals.size());
   if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);
+  // At the ends many stops are not ignored: what is predicted from one side knows less.
   const Shaking at_ends = shaking;
   shaking.stops = none_if_many(shaking.stops);
   const auto take = [&](const std::vector<Outlier>& chosen) {

@@ -28,15 +28,16 @@ std::vector<double> by_convolution(const std::vector<Complex>& amplitudes, std::
   for (std::size_t j = 0; j < samples; ++j) kernel[j] = std::conj(chirp[j]);
   for (std::size_t k = 1; k < lines; ++k) kernel[padded - k] = std::conj(chirp[k]);
   const auto length = static_cast<Eigen::Index>(padded);
-  std::vector<Complex> product(padded);
-  std::vector<Complex> other(padded);
-  transform.fwd(product.data(), weighted.data(), length);
-  transform.fwd(other.data(), kernel.data(), length);
-  for (std::size_t k = 0; k < padded; ++k) product[k] *= other[k];
-  transform.inv(weighted.data(), product.data(), length);
+  std::vector<Complex> spectrum(padded);
+  std::vector<Complex> kernel_spectrum(padded);
+  transform.fwd(spectrum.data(), weighted.data(), length);
+  transform.fwd(kernel_spectrum.data(), kernel.data(), length);
+  for (std::size_t k = 0; k < padded; ++k) spectrum[k] *= kernel_spectrum[k];
+  std::vector<Complex>& convolved = weighted;
+  transform.inv(convolved.data(), spectrum.data(), length);
   std::vector<double> values(samples);
   for (std::size_t j = 0; j < samples; ++j) {
-    values[j] = (weighted[j] * chirp[j]).real() / static_cast<double>(padded);
+    values[j] = (convolved[j] * chirp[j]).real() / static_cast<double>(padded);
   }
   return values;
 }

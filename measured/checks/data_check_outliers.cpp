@@ -354,10 +354,10 @@ std::vector<DataFinding> check_spikes(std::span<const CheckedSignal> signals,
     starts.push_back(options.starts_at_rest ? samples_of_start(signal, is_shaken_unseen) : 0);
   }
   std::vector<std::set<std::size_t>> found(signals.size());
-  if (ends_are_sound) repair_ends(values, usable, starts, shaking, options, found);
   // At the ends many stops are not ignored: what is predicted from one side knows less.
   const Shaking at_ends = shaking;
   shaking.stops = none_if_many(shaking.stops);
+  if (ends_are_sound) repair_ends(values, usable, starts, at_ends, options, found);
   const auto take = [&](const std::vector<Outlier>& chosen) {
     for (const auto& outlier : chosen) {
       values[outlier.signal][static_cast<Eigen::Index>(outlier.sample)] -= outlier.size;

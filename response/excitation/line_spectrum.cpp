@@ -12,7 +12,8 @@ using Complex = std::complex<double>;
 
 /// Bluestein's convolution: 2 j k = j^2 + k^2 - (j - k)^2, so that the sum is
 /// c_j sum_k a_k c_k conj(c_{j-k}) with c_j = exp(i pi j^2/samples). For the angle j^2 is taken
-/// modulo 2 samples.
+/// modulo 2 samples. measured/ transforms what is recorded likewise, by code of its own, so
+/// that signals and their analysis share none.
 std::vector<double> by_convolution(const std::vector<Complex>& amplitudes, std::size_t samples,
                                    Eigen::FFT<double>& transform) {
   std::vector<Complex> chirp(samples);

@@ -48,18 +48,15 @@ Progress::Progress(std::string label, std::int64_t total, bool in_per_cent,
       time_left_(options.time_left) {
   if (!on_terminal_) return;
   ticker_ = std::thread([this] {
-    std::unique_lock lock(drawing_);
-    while (!end_.wait_for(lock, options_.tick, [this] { return over_; })) {
-      const auto now = std::chrono::steady_clock::now();
-      if (now >= next_) draw_line(now);
-    }
+    std::unique_lock lock(ending_);
+    while (!end_.wait_for(lock, options_.tick, [this] { return over_; })) draw();
   });
 }
 
 Progress::~Progress() {
   if (ticker_.joinable()) {
     {
-      const std::scoped_lock lock(drawing_);
+      const std::scoped_lock lock(ending_);
       over_ = true;
     }
     end_.notify_one();

@@ -57,7 +57,8 @@ class Progress {
   std::chrono::steady_clock::time_point next_;
   TimeLeft time_left_;
   bool drawn_ = false;
-  bool over_ = false;
+  std::mutex ending_;
+  bool over_ = false;  ///< guarded by `ending_`
   std::condition_variable end_;
   std::thread ticker_;  ///< on a terminal
 };

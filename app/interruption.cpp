@@ -1,5 +1,7 @@
 #include "app/interruption.hpp"
 
+#include "report/terminal.hpp"
+
 #include <cstddef>
 #include <cstdlib>
 #include <pthread.h>
@@ -14,7 +16,7 @@ std::atomic<bool> is_requested = false;
 std::atomic<int> signal_that_came = 0;
 /// The thread whose writing holds signals off; others hand them on to it.
 pthread_t main_thread;
-bool errors_on_terminal = false;
+bool errors_can_be_wiped = false;
 
 void say(std::string_view text) {
   // Best effort: nobody is left to tell.
@@ -26,7 +28,7 @@ void end_at_once(int signal) {
     pthread_kill(main_thread, signal);
     return;
   }
-  if (errors_on_terminal) say("\r\x1b[K");
+  if (errors_can_be_wiped) say("\r\x1b[K");
   say(signal == SIGINT ? "flexarm: interrupted\n" : "flexarm: terminated\n");
   struct sigaction usual = {};
   usual.sa_handler = SIG_DFL;
@@ -41,7 +43,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 
 void end_at_once_when_interrupted() {
   main_thread = pthread_self();
-  errors_on_terminal = ::isatty(STDERR_FILENO) == 1;
+  errors_can_be_wiped = report::takes_escape_sequences(STDERR_FILENO);
   struct sigaction end = {};
   end.sa_handler = end_at_once;
   sigemptyset(&end.sa_mask);

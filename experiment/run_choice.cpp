@@ -143,7 +143,7 @@ PlannedRun plan(TypedRun& run, double duration_s, double period_s,
             {},
             run.purpose,
             {},
-            !run.id.empty(),
+            {},
             run.stepped_sine};
   }
   const auto grid = grid_of(duration_s, period_s, spelled);
@@ -159,8 +159,7 @@ PlannedRun plan(TypedRun& run, double duration_s, double period_s,
           std::move(torque),
           {},
           run.purpose,
-          differences(keys_of(run.excitation), keys),
-          !run.id.empty()};
+          differences(keys_of(run.excitation), keys)};
 }
 
 PlannedRun run_of_file(const std::string& file) {
@@ -172,8 +171,7 @@ PlannedRun run_of_file(const std::string& file) {
           {std::move(record.torque_N_m), {}, {}},
           {},
           {},
-          {},
-          false};
+          {}};
 }
 
 PlannedRun run_of_torque(const measured::TimeRecord& record) {
@@ -219,12 +217,12 @@ PlannedRun run_of_reference_file(const std::string& file, const arm::Controller&
 void count_equal_ids(std::vector<PlannedRun>& runs) {
   std::set<std::string> used;
   for (const auto& run : runs) {
-    if (run.has_own_id && !used.insert(run.id).second) {
-      throw InputError(fmt::format("id = {}: used for two runs", run.id));
+    if (!run.id_typed_in.empty() && !used.insert(run.id).second) {
+      throw InputError(fmt::format("{}: id = {}: is that of another run", run.id_typed_in, run.id));
     }
   }
   for (auto& run : runs) {
-    if (run.has_own_id) continue;
+    if (!run.id_typed_in.empty()) continue;
     const std::string first = run.id;
     for (int count = 2; !used.insert(run.id).second; ++count) {
       run.id = fmt::format("{}-{}", first, count);
@@ -308,6 +306,7 @@ std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,
     }
     PlannedRun planned = plan(run, duration_s.value_or(kDefaultDuration_s),
                               period_s.value_or(kDefaultPeriod_s), spelled);
+    if (!run.id.empty()) planned.id_typed_in = fmt::format("{} {}", option, arm::shown(text));
     if (run.payload_kg) {
       if (!payload_masses_kg.empty()) {
         throw InputError(

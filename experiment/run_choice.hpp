@@ -34,7 +34,7 @@ struct PlannedRun {
   std::optional<arm::Payload> payload;  ///< in place of the arm's own
   std::optional<measured::Purpose> purpose;
   std::vector<RoundedKey> rounded;
-  bool has_own_id = false;  ///< typed, not made from the excitation
+  std::string id_typed_in = {};  ///< option and value; empty: the id is made from the excitation
   /// In place of times and torque.
   std::optional<response::SteppedSine> stepped_sine = {};
   /// Of a closed loop, in place of the torque.

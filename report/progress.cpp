@@ -42,7 +42,7 @@ Progress::Progress(std::string label, std::int64_t total, bool in_per_cent,
       total_(total),
       in_per_cent_(in_per_cent),
       options_(options),
-      on_terminal_(::isatty(options.descriptor) == 1),
+      on_terminal_(takes_escape_sequences(options.descriptor)),
       begun_(std::chrono::steady_clock::now()),
       next_(begun_ + options.quiet_for),
       time_left_(options.time_left) {

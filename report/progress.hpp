@@ -23,7 +23,8 @@ struct ProgressOptions {
 
 /// A line "label  12 of 40, 25 s left", or "label  30 %, 25 s left", that is rewritten while work
 /// goes on, and wiped when it ends; "label  25 s" while nothing of it is known to be done. Nothing
-/// at all is written where `descriptor` is not a terminal, or before `quiet_for` has passed.
+/// at all is written where `descriptor` is not a terminal that can wipe a line, or before
+/// `quiet_for` has passed.
 class Progress {
  public:
   /// Work of `total` steps that mean something to a reader.

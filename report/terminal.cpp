@@ -40,10 +40,13 @@ std::size_t output_width(int descriptor) {
   return std::max(columns, kLeastWidth);
 }
 
-bool shows_colour(int descriptor) {
-  if (!environment("NO_COLOR").empty()) return false;
+bool takes_escape_sequences(int descriptor) {
   const std::string_view kind = environment("TERM");
   return !kind.empty() && kind != "dumb" && ::isatty(descriptor) == 1;
+}
+
+bool shows_colour(int descriptor) {
+  return environment("NO_COLOR").empty() && takes_escape_sequences(descriptor);
 }
 
 }  // namespace flexarm::report

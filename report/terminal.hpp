@@ -17,8 +17,12 @@ inline constexpr std::size_t kWidestText = 100;
 /// kLeastWidth.
 std::size_t output_width(int descriptor);
 
-/// Whether `descriptor` is a terminal that shows colours: TERM is neither empty nor "dumb", and
-/// NO_COLOR is not set or empty (no-color.org).
+/// Whether `descriptor` is a terminal that understands escape sequences: TERM is neither empty nor
+/// "dumb".
+bool takes_escape_sequences(int descriptor);
+
+/// Whether `descriptor` is a terminal that shows colours: it takes escape sequences, and NO_COLOR
+/// is not set or empty (no-color.org).
 bool shows_colour(int descriptor);
 
 }  // namespace flexarm::report

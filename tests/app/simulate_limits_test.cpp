@@ -127,7 +127,7 @@ TEST_F(SimulateLimits, WhatIsGivenTwiceIsRefused) {
       run({"simulate", "--quantisation", "hub_angle=0.1", "--quantisation", "hub_angle=0.2"}),
       "--quantisation hub_angle=0.2: hub_angle given twice");
   expect_refused(run_short({"--excitation", "step:id=a", "--excitation", "bang-bang:id=a"}),
-                 "id = a: used for two runs");
+                 "--excitation bang-bang:id=a: id = a: is that of another run");
   EXPECT_EQ(
       run_short({"--excitation", "step", "--excitation", "random:id=step,to=80", "--out", "out"})
           .status,

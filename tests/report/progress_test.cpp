@@ -31,6 +31,18 @@ TEST(Progress, WritesNothingWhereThereIsNoTerminal) {
   close(ends[1]);
 }
 
+TEST(Progress, WritesNothingToATerminalThatCannotWipeALine) {
+  const PseudoTerminal terminal;
+  ASSERT_GE(terminal.descriptor(), 0);
+  const EnvironmentVariable kind("TERM", "dumb");
+  {
+    Progress progress("grid", 3,
+                      {.descriptor = terminal.descriptor(), .quiet_for = 0s, .interval = 0s});
+    progress.advance(3);
+  }
+  EXPECT_EQ(terminal.output(), "");
+}
+
 TEST(Progress, WritesNothingForShortWork) {
   const PseudoTerminal terminal;
   ASSERT_GE(terminal.descriptor(), 0);

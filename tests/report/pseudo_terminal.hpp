@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/report/environment_variable.hpp"
+
 #include <array>
 #include <cstdlib>
 #include <fcntl.h>
@@ -20,7 +22,8 @@ inline std::string read_all(int descriptor) {
   return text;
 }
 
-/// A terminal of the test's own, with a number of columns; 0: it does not know its size.
+/// A terminal of the test's own, with a number of columns; 0: it does not know its size. TERM is
+/// that of a terminal that takes escape sequences.
 class PseudoTerminal {
  public:
   explicit PseudoTerminal(unsigned short columns = 80) : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -43,6 +46,7 @@ class PseudoTerminal {
  private:
   int master_;
   int slave_ = -1;
+  EnvironmentVariable kind_{"TERM", "xterm"};
 };
 
 }  // namespace flexarm::report

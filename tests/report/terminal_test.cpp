@@ -1,44 +1,17 @@
 #include "report/terminal.hpp"
 
+#include "tests/report/environment_variable.hpp"
 #include "tests/report/pseudo_terminal.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fcntl.h>
-#include <optional>
 #include <string>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace flexarm::report {
 namespace {
-
-/// An environment variable for the time of a test.
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    if (value == nullptr) {
-      ::unsetenv(name);
-    } else {
-      ::setenv(name, value, 1);
-    }
-  }
-  ~Variable() {
-    if (before_) {
-      ::setenv(name_, before_->c_str(), 1);
-    } else {
-      ::unsetenv(name_);
-    }
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
 
 /// A descriptor that is no terminal.
 class Pipe {
@@ -55,7 +28,7 @@ class Pipe {
 
 TEST(OutputWidth, IsThatOfTheTerminalWhateverColumnsSays) {
   const PseudoTerminal terminal(37);
-  const Variable columns("COLUMNS", "90");
+  const EnvironmentVariable columns("COLUMNS", "90");
   EXPECT_EQ(output_width(terminal.descriptor()), 37U);
 }
 
@@ -66,27 +39,26 @@ TEST(OutputWidth, IsNeverTooNarrowToWriteIn) {
 
 TEST(OutputWidth, OfATerminalWithoutASizeIsThatOfColumns) {
   const PseudoTerminal terminal(0);
-  const Variable columns("COLUMNS", "64");
+  const EnvironmentVariable columns("COLUMNS", "64");
   EXPECT_EQ(output_width(terminal.descriptor()), 64U);
 }
 
 TEST(OutputWidth, OfAPipeIsThatOfColumnsOrFixed) {
   const Pipe pipe;
   {
-    const Variable columns("COLUMNS", "72");
+    const EnvironmentVariable columns("COLUMNS", "72");
     EXPECT_EQ(output_width(pipe.descriptor()), 72U);
   }
   for (const char* unusable : {"", "0", "-3", "80x", "wide", "99999999"}) {
-    const Variable columns("COLUMNS", unusable);
+    const EnvironmentVariable columns("COLUMNS", unusable);
     EXPECT_EQ(output_width(pipe.descriptor()), kPipeWidth) << unusable;
   }
-  const Variable columns("COLUMNS", nullptr);
+  const EnvironmentVariable columns("COLUMNS", nullptr);
   EXPECT_EQ(output_width(pipe.descriptor()), kPipeWidth);
 }
 
 TEST(Colour, IsForTerminalsAlone) {
-  const Variable kind("TERM", "xterm");
-  const Variable no_colour("NO_COLOR", nullptr);
+  const EnvironmentVariable no_colour("NO_COLOR", nullptr);
   const PseudoTerminal terminal(80);
   const Pipe pipe;
   EXPECT_TRUE(shows_colour(terminal.descriptor()));
@@ -94,21 +66,20 @@ TEST(Colour, IsForTerminalsAlone) {
 }
 
 TEST(Colour, IsSwitchedOffByNoColorUnlessThatIsEmpty) {
-  const Variable kind("TERM", "xterm");
   const PseudoTerminal terminal(80);
   for (const char* value : {"1", "0", "no"}) {
-    const Variable no_colour("NO_COLOR", value);
+    const EnvironmentVariable no_colour("NO_COLOR", value);
     EXPECT_FALSE(shows_colour(terminal.descriptor())) << value;
   }
-  const Variable no_colour("NO_COLOR", "");
+  const EnvironmentVariable no_colour("NO_COLOR", "");
   EXPECT_TRUE(shows_colour(terminal.descriptor()));
 }
 
 TEST(Colour, IsNotForDumbTerminals) {
-  const Variable no_colour("NO_COLOR", nullptr);
+  const EnvironmentVariable no_colour("NO_COLOR", nullptr);
   const PseudoTerminal terminal(80);
   for (const char* value : {static_cast<const char*>(nullptr), "", "dumb"}) {
-    const Variable kind("TERM", value);
+    const EnvironmentVariable kind("TERM", value);
     EXPECT_FALSE(shows_colour(terminal.descriptor()));
   }
 }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -42,9 +43,8 @@ struct Cancelled {};
 /// cancels, and after the deadline.
 class ReportedWork {
  public:
-  /// `progress` must outlive the object.
-  explicit ReportedWork(const DiagnosisProgress& progress, const Deadline& deadline = {})
-      : progress_(progress), deadline_(deadline) {}
+  explicit ReportedWork(DiagnosisProgress progress, const Deadline& deadline = {})
+      : progress_(std::move(progress)), deadline_(deadline) {}
 
   double done() const { return done_; }  ///< the fraction that was told last
   std::string_view what() const { return what_; }
@@ -86,7 +86,7 @@ class ReportedWork {
     throw Cancelled{};
   }
 
-  const DiagnosisProgress& progress_;
+  const DiagnosisProgress progress_;
   Deadline deadline_;
   mutable std::atomic<bool> is_out_of_time_ = false;
   mutable std::mutex telling_;

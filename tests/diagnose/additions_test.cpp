@@ -75,8 +75,7 @@ TEST_F(AdditionsToALateArm, EndWhereTheWorkIsCancelled) {
 /// The additions of this effect beside nothing.
 std::vector<Addition> additions_of(const Experiment& experiment, const Hypothesis& effect) {
   const Problem problem(experiment);
-  const DiagnosisProgress silent;
-  const ReportedWork work(silent);
+  const ReportedWork work({});
   return additions(problem, fit(problem, problem.as_filed()), {&effect}, 1, {}, work);
 }
 

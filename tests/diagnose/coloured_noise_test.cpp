@@ -207,8 +207,7 @@ TEST(ColouredNoiseModel, OfOneSensorIsNotFarAboveItsWhiteNoise) {
 DependenceTest dependence_of(const Experiment& experiment) {
   const Problem white(experiment);
   const auto coloured = white.with_coloured_noise(white.as_filed());
-  const DiagnosisProgress none;
-  ReportedWork work(none);
+  ReportedWork work({});
   return test_dependence(*coloured, white, coloured->as_filed(), work);
 }
 

@@ -24,8 +24,7 @@ double sum_of_squares(const Problem& problem, const Candidate& candidate) {
 }
 
 ReportedWork unreported() {
-  static const DiagnosisProgress none;
-  return ReportedWork(none);
+  return ReportedWork({});
 }
 
 TEST(LinearRefit, ShowsAnEffectThatTheBaseHasTakenUp) {

@@ -47,8 +47,7 @@ class SetSearchOfThree : public testing::Test {
 };
 
 TEST_F(SetSearchOfThree, FindsThemWithoutBeingToldOfAny) {
-  const DiagnosisProgress silent;
-  ReportedWork work(silent);
+  ReportedWork work({});
   const CoarseProblems parts(problem_, options_);
   ASSERT_TRUE(parts.is_early_shorter());
   SetSearch of_three = search(parts, work);
@@ -65,8 +64,7 @@ TEST_F(SetSearchOfThree, FindsThemWithoutBeingToldOfAny) {
 }
 
 TEST_F(SetSearchOfThree, BeginsWithTheSinglesThatItIsGiven) {
-  const DiagnosisProgress silent;
-  ReportedWork work(silent);
+  ReportedWork work({});
   const CoarseProblems parts(problem_, options_);
   const auto rigidity = named(experiment_, {"flexural_rigidity"}).front();
   const Candidate single = problem_.as_filed().with(rigidity, {0.97});

@@ -1,6 +1,7 @@
 // Sets of effects that are found on the beginning of the runs.
 #include "diagnose/search/set_search.hpp"
 
+#include "diagnose/search/explanation.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 

@@ -10,8 +10,8 @@ endif()
 # What computes is optimised in full. What writes or reads need not be, nor need the tests: they
 # build in half the time.
 set(full_option "")
-set(brief_option $<$<CONFIG:Release>:-O1>)
-set(test_option $<$<CONFIG:Release>:-O0>)
+set(brief_option $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+set(test_option $<$<CONFIG:Release>:-O0> $<$<CONFIG:RelWithDebInfo>:-O1>)
 
 # Templates fill the compiler's memory. By default GCC collects garbage from 128 MB on, which takes
 # up to a seventh of the time. [kB]

@@ -1,11 +1,11 @@
 #include "tests/app/flexarm_fixture.hpp"
+#include "tests/environment_variable.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <csignal>
-#include <cstdlib>
 #include <sys/resource.h>
 
 namespace flexarm::testing_app {
@@ -231,14 +231,12 @@ TEST_F(Compare, WhatCannotBeWrittenIsRefusedBeforeTheWork) {
 }
 
 TEST_F(Compare, WithoutGnuplotAFolderIsRefusedAndTablesArePrinted) {
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", folder_.c_str(), 1);
+  const testing_environment::EnvironmentVariable path("PATH", folder_.c_str());
   for (const std::string command : {"compare", "modes"}) {
     expect_refused(run({command, "--out", "out"}),
                    "figures need gnuplot, which is not on PATH (Debian package gnuplot-nox)");
   }
   EXPECT_EQ(run({"compare", "--quick", "--poles", "1"}).status, 0);
-  ::setenv("PATH", path.c_str(), 1);
   EXPECT_TRUE(names_in().empty());
 }
 

@@ -1,10 +1,10 @@
 #include "tests/app/flexarm_fixture.hpp"
+#include "tests/environment_variable.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <string>
 
 namespace flexarm::testing_app {
@@ -38,10 +38,8 @@ TEST_F(Doctor, TriesWhatFlexarmNeeds) {
 }
 
 TEST_F(Doctor, SaysWhatToDoWithoutGnuplot) {
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", folder_.c_str(), 1);
+  const testing_environment::EnvironmentVariable path("PATH", folder_.c_str());
   const Ended ended = run({"doctor", "--json", "doctor.json"});
-  ::setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(ended.status, 1);
   EXPECT_THAT(ended.output,
               AllOf(StartsWith("FAILED: "), HasSubstr("apt-get install gnuplot-nox")));

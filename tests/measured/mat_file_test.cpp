@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/text_file.hpp"
+#include "tests/environment_variable.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -214,12 +214,10 @@ TEST_F(MatFile, AFileCutOffAnywhereIsRefusedOrHoldsWholeVariables) {
 }
 
 TEST_F(MatFile, NeedsNoTemporaryFolder) {
-  const char* before = std::getenv("TMPDIR");
-  const std::string kept = before == nullptr ? "" : before;
-  ::setenv("TMPDIR", path("none").c_str(), 1);
+  const std::string none = path("none");
+  const testing_environment::EnvironmentVariable folder("TMPDIR", none.c_str());
   write_mat_file(every_kind(), path());
   EXPECT_EQ(read_mat_file(path()), every_kind());
-  before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
 }
 
 /// The library does not say that a write of its own has failed.

@@ -1,10 +1,11 @@
 #include "report/figures/gnuplot.hpp"
 
+#include "tests/environment_variable.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -48,12 +49,8 @@ TEST(Gnuplot, OneThatHangsIsEnded) {
 }
 
 TEST(Gnuplot, NamesThePackageWhenItIsNotInstalled) {
-  const char* set = std::getenv("PATH");
-  const std::string path = set ? set : "";
-  setenv("PATH", FLEXARM_SOURCE_DIR, 1);
-  const std::string message = failure("print 1\n");
-  setenv("PATH", path.c_str(), 1);
-  EXPECT_THAT(message, HasSubstr("gnuplot-nox"));
+  const testing_environment::EnvironmentVariable path("PATH", FLEXARM_SOURCE_DIR);
+  EXPECT_THAT(failure("print 1\n"), HasSubstr("gnuplot-nox"));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "report/progress.hpp"
 
+#include "tests/environment_variable.hpp"
 #include "tests/report/pseudo_terminal.hpp"
 
 #include <gmock/gmock.h>
@@ -18,6 +19,7 @@ namespace flexarm::report {
 namespace {
 
 using namespace std::chrono_literals;
+using testing_environment::EnvironmentVariable;
 
 TEST(Progress, WritesNothingWhereThereIsNoTerminal) {
   std::array<int, 2> ends{};

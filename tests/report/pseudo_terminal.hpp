@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/report/environment_variable.hpp"
+#include "tests/environment_variable.hpp"
 
 #include <array>
 #include <cstdlib>
@@ -46,7 +46,7 @@ class PseudoTerminal {
  private:
   int master_;
   int slave_ = -1;
-  EnvironmentVariable kind_{"TERM", "xterm"};
+  testing_environment::EnvironmentVariable kind_{"TERM", "xterm"};
 };
 
 }  // namespace flexarm::report

@@ -1,6 +1,6 @@
 #include "report/terminal.hpp"
 
-#include "tests/report/environment_variable.hpp"
+#include "tests/environment_variable.hpp"
 #include "tests/report/pseudo_terminal.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +12,8 @@
 
 namespace flexarm::report {
 namespace {
+
+using testing_environment::EnvironmentVariable;
 
 /// A descriptor that is no terminal.
 class Pipe {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace flexarm::report {
+namespace flexarm::testing_environment {
 
 /// An environment variable while one lives; unset for the value nullptr.
 class EnvironmentVariable {
@@ -32,4 +32,4 @@ class EnvironmentVariable {
   std::optional<std::string> before_;
 };
 
-}  // namespace flexarm::report
+}  // namespace flexarm::testing_environment

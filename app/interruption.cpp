@@ -28,7 +28,7 @@ void end_at_once(int signal) {
     pthread_kill(main_thread, signal);
     return;
   }
-  if (errors_can_be_wiped) say("\r\x1b[K");
+  if (errors_can_be_wiped) say(report::kWipeLine);
   say(signal == SIGINT ? "flexarm: interrupted\n" : "flexarm: terminated\n");
   struct sigaction usual = {};
   usual.sa_handler = SIG_DFL;

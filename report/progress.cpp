@@ -13,8 +13,6 @@
 namespace flexarm::report {
 namespace {
 
-constexpr std::string_view kWipeLine = "\r\x1b[K";
-
 /// Best effort: a terminal that has gone away is no reason to stop the work.
 void write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 namespace flexarm::report {
 
@@ -20,6 +21,9 @@ std::size_t output_width(int descriptor);
 /// Whether `descriptor` is a terminal that understands escape sequences: TERM is neither empty nor
 /// "dumb".
 bool takes_escape_sequences(int descriptor);
+
+/// On such a terminal: to the first column of the line, which is then empty.
+inline constexpr std::string_view kWipeLine = "\r\x1b[K";
 
 /// Whether `descriptor` is a terminal that shows colours: it takes escape sequences, and NO_COLOR
 /// is not set or empty (no-color.org).

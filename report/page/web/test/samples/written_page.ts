@@ -25,9 +25,31 @@ export function writtenRaw(name: string, json: string, base64: string): string {
   return addressOf(name, page);
 }
 
-/** A page with a word on it. */
-export function emptyPage(): string {
-  return addressOf("empty", "<!DOCTYPE html><title>empty</title><p>empty");
+/** A page that draws twelve curves of 4,000 samples, as many as the first screen of a diagnosis, and no more. */
+export function barePage(): string {
+  const canvases = '<canvas width="960" height="150"></canvas>'.repeat(3);
+  return addressOf(
+    "bare",
+    `<!DOCTYPE html><title>bare</title><div id="headline">${canvases}</div><div>${canvases}</div>
+<script>(${drawCurves})()</script>`,
+  );
+}
+
+/** Runs in the page: two curves on each canvas. */
+function drawCurves(): void {
+  const samples = 4000;
+  for (const canvas of document.querySelectorAll("canvas")) {
+    const pen = canvas.getContext("2d")!;
+    pen.lineWidth = 1.5;
+    for (let k = 0; k < 2; ++k) {
+      pen.beginPath();
+      for (let i = 0; i < samples; ++i) {
+        const level = 0.5 + 0.45 * Math.sin(0.05 * i + k);
+        pen.lineTo((i * canvas.width) / samples, level * canvas.height);
+      }
+      pen.stroke();
+    }
+  }
 }
 
 function addressOf(name: string, page: string): string {

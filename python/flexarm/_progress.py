@@ -1,5 +1,6 @@
 """The line that long calls show of their progress."""
 
+import os
 import sys
 import time
 
@@ -17,7 +18,9 @@ def _is_watched():
     stream = sys.stderr
     if stream is None:
         return False
-    return stream.isatty() or _in_notebook()
+    # A terminal of the kind "dumb" cannot rewrite a line.
+    is_rewritable = stream.isatty() and os.environ.get("TERM", "dumb") != "dumb"
+    return is_rewritable or _in_notebook()
 
 
 class ProgressLine:

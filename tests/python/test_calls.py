@@ -133,7 +133,7 @@ class Progress(unittest.TestCase):
     def test_a_line_is_written_and_wiped(self):
         stream = io.StringIO()
         stream.isatty = lambda: True
-        with mock.patch.object(sys, "stderr", stream):
+        with mock.patch.object(sys, "stderr", stream), mock.patch.dict(os.environ, TERM="xterm"):
             line = _progress.line_of("diagnosis")
             line(0.1, "")
             self.assertEqual(stream.getvalue(), "")
@@ -142,11 +142,20 @@ class Progress(unittest.TestCase):
             line.close()
         self.assertRegex(stream.getvalue(), r"^\rdiagnosis  50 %, 8 s left\r +\r$")
 
+    def test_a_terminal_that_cannot_rewrite_a_line_gets_none(self):
+        stream = io.StringIO()
+        stream.isatty = lambda: True
+        with mock.patch.object(sys, "stderr", stream), mock.patch.dict(os.environ, TERM="dumb"):
+            self.assertIsNone(_progress.line_of("diagnosis"))
+            del os.environ["TERM"]
+            self.assertIsNone(_progress.line_of("diagnosis"))
+
     def test_a_terminal_shows_it(self):
         leader, follower = pty.openpty()
         script = LONG + "import _thread, threading\nthreading.Timer(2.0, _thread.interrupt_main).start()\n"
         script += f"try:\n    {LONG_CALL}\nexcept KeyboardInterrupt:\n    pass\n"
-        subprocess.run([sys.executable, "-c", script], stderr=follower, timeout=60, check=True)
+        with mock.patch.dict(os.environ, TERM="xterm"):
+            subprocess.run([sys.executable, "-c", script], stderr=follower, timeout=60, check=True)
         os.close(follower)
         shown = os.read(leader, 1 << 16).decode()
         os.close(leader)

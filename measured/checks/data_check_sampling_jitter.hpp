@@ -18,9 +18,11 @@ namespace flexarm::measured {
 /// periods rms. s^2 is fitted by weighted least squares over the samples that no jump of the torque
 /// shakes; its error allows for any distribution of u.
 ///
-/// Jitter: s^2 of 5 standard errors or more, and s of 0.045 periods, of 0.1 where the torque is
+/// Jitter: s^2 of 4.5 standard errors or more, and s of 0.05 periods, of 0.14 where the torque is
 /// made of pulses or steps: what the arm does after them is predicted less well. With a level of
 /// its own for each twelfth of the record, s^2 must be 2 standard errors and s half as large.
+/// A single channel needs more. Where residuals grow with g alike over all of its range, less is
+/// enough.
 std::vector<DataFinding> check_sampling_jitter(std::span<const CheckedSignal> signals,
                                                const std::vector<bool>& usable, double period_s);
 

@@ -20,15 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of a kind, always the same ones. Rates over many are in docs/measured-data.md.
-constexpr int kFiles = 25;
-/// 95 % of the files of a kind must be found. Sampling jitter is, in 96 % of many: of 25 files, two
-/// may be missed by chance.
-constexpr int kMostMissed = 1;
-constexpr int kMostMissedOfJitter = 2;
-/// Files of a kind in which something beside the planted fault may be found. Over many they are 0
-/// to 9 %, below 2 % for most kinds.
-constexpr int kMostFurther = 3;
+constexpr int kFiles = 50;
+/// Files of a kind in which something beside the planted fault may be found. Over many files
+/// (docs/measured-data.md) they are 0 to 9 %, below 2 % for most kinds.
+constexpr int kMostFurther = 4;
+constexpr int kFewFiles = 25;
+/// 95 % of the files of a kind must be found; rates over many are in docs/measured-data.md.
+constexpr int kMostMissed = 2;
 
 /// Seeds of the files of a kind; those of the clean ones are below kSeedStep.
 constexpr std::uint64_t kSeedStep = 1'000'000;
@@ -82,10 +80,13 @@ class PlantedFaults : public testing::TestWithParam<Fault> {};
 
 TEST_P(PlantedFaults, AreFound) {
   const Fault fault = GetParam();
+  const bool is_subtle = fault == Fault::hum || fault == Fault::sampling_jitter;
+  // Drawn at several times the samples, or tried for detectability.
+  const int files = is_subtle || fault == Fault::duplicated_samples ? kFewFiles : kFiles;
   int with_further = 0;
   int missed = 0;
   std::string text;
-  for (int file = 0; file < kFiles; ++file) {
+  for (int file = 0; file < files; ++file) {
     const Outcome outcome = check_planted(fault, seed_of(fault, file));
     if (!outcome.found) {
       ++missed;
@@ -93,7 +94,7 @@ TEST_P(PlantedFaults, AreFound) {
     }
     if (outcome.further > 0) ++with_further;
   }
-  EXPECT_LE(missed, fault == Fault::sampling_jitter ? kMostMissedOfJitter : kMostMissed) << text;
+  EXPECT_LE(missed, kMostMissed) << text;
   RecordProperty("files_with_further_findings", with_further);
   EXPECT_LE(with_further, kMostFurther);
 }

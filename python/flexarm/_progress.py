@@ -18,8 +18,8 @@ def _is_watched():
     stream = sys.stderr
     if stream is None:
         return False
-    # A terminal of the kind "dumb" cannot rewrite a line.
-    is_rewritable = stream.isatty() and os.environ.get("TERM", "dumb") != "dumb"
+    # A terminal of the kind "dumb", or of none, cannot rewrite a line.
+    is_rewritable = stream.isatty() and os.environ.get("TERM", "") not in ("", "dumb")
     return is_rewritable or _in_notebook()
 
 

@@ -145,8 +145,10 @@ class Progress(unittest.TestCase):
     def test_a_terminal_that_cannot_rewrite_a_line_gets_none(self):
         stream = io.StringIO()
         stream.isatty = lambda: True
-        with mock.patch.object(sys, "stderr", stream), mock.patch.dict(os.environ, TERM="dumb"):
-            self.assertIsNone(_progress.line_of("diagnosis"))
+        with mock.patch.object(sys, "stderr", stream), mock.patch.dict(os.environ):
+            for kind in ("dumb", ""):
+                os.environ["TERM"] = kind
+                self.assertIsNone(_progress.line_of("diagnosis"))
             del os.environ["TERM"]
             self.assertIsNone(_progress.line_of("diagnosis"))
 

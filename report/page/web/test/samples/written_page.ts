@@ -25,7 +25,10 @@ export function writtenRaw(name: string, json: string, base64: string): string {
   return addressOf(name, page);
 }
 
-/** A page that draws twelve curves of 4,000 samples, as many as the first screen of a diagnosis, and no more. */
+/**
+ * A page that draws twelve curves of 4,000 samples, as many as the first screen of a diagnosis, and no
+ * more. Its headline has three canvases, by which a test sees that it is drawn, as that of a diagnosis.
+ */
 export function barePage(): string {
   const canvases = '<canvas width="960" height="150"></canvas>'.repeat(3);
   return addressOf(

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <string>
 #include <variant>
@@ -98,6 +99,10 @@ struct HiddenAt {
   ForcePort port;
   double share;  ///< that the port explains at least
 };
+
+void PrintTo(const HiddenAt& hidden, std::ostream* out) {
+  *out << hidden.name;
+}
 
 class PortOfHidden : public testing::TestWithParam<HiddenAt> {};
 

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ struct Hidden {
   HubTorqueKind kind;
   double coefficient;
 };
+
+void PrintTo(const Hidden& hidden, std::ostream* out) {
+  *out << hidden.effect;
+}
 
 class HubTorqueOfHidden : public testing::TestWithParam<Hidden> {};
 

@@ -19,6 +19,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -152,6 +153,10 @@ struct HiddenCase {
   double value;
   std::string sensor;
 };
+
+void PrintTo(const HiddenCase& hidden, std::ostream* out) {
+  *out << hidden.effect << " on " << hidden.sensor;
+}
 
 class SensorEffect : public testing::TestWithParam<HiddenCase> {};
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ struct BoundedArm {
   std::map<std::string, double> parameters = {};
   bool is_settled = false;
 };
+
+void PrintTo(const BoundedArm& bounded, std::ostream* out) {
+  *out << bounded.name;
+}
 
 const std::vector<BoundedArm> kBoundedArms = {
     {"lightly_damped"},

@@ -9,7 +9,7 @@ import { longSample } from "./samples/other_documents.js";
 import { barePage, written } from "./samples/written_page.js";
 
 // The first screen draws twelve curves of 4,000 samples. A page that does nothing else is the measure: a
-// slower machine takes longer for both. The report takes 3.4 to 4.4 of it (0.55 to 0.75 s), with other
+// slower machine takes longer for both. The report takes 3.4 to 5.0 of it (0.5 to 0.75 s), with other
 // programs beside or without; half of that is Chromium's drawing. An empty page is no measure: from
 // one machine to another the report took 6.4 to 13 of it.
 const kMostOpening_barePages = 6;

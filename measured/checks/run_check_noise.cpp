@@ -2,16 +2,24 @@
 
 #include "measured/checks/data_check_prediction.hpp"
 #include "measured/checks/run_check_signals.hpp"
+#include "measured/spectra/fourier.hpp"
 #include "measured/spectra/robust.hpp"
+#include "measured/spectra/window.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <cstddef>
+#include <iterator>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flexarm::measured {
 
@@ -27,7 +35,11 @@ constexpr std::size_t kUpperBands = 4;
 constexpr double kMostUneven = 2.0;
 /// Of white noise the spectrum's level over what the prediction leaves.
 constexpr double kLeastWhite = 0.8;
-constexpr double kMostWhite = 1.03;
+constexpr double kMostWhite = 1.1;
+/// Bands of the whole spectrum of a residual, and the largest over the smallest of their amplitudes
+/// in white noise.
+constexpr std::size_t kBands = 8;
+constexpr double kMostColoured = 1.4;
 /// What counts as noise: standard deviations of the channel.
 constexpr double kLeastNoise = 0.003;
 constexpr double kTimes = 3.0;
@@ -44,9 +56,51 @@ struct ChannelNoise {
   double certain = 0.0;    ///< of what is noise for certain; 0: none is
 };
 
-/// The residual of a prediction, as the noise of one sample, in the channel's standard deviations.
-double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_t self,
-                          const std::vector<bool>& usable) {
+/// What neither the neighbours in time nor the other channels predict of a channel, as the noise of
+/// one sample in the channel's standard deviations.
+struct Unpredicted {
+  double deviation = 0.0;
+  double lowest = 0.0;  ///< by the weakest band of the spectrum
+  double white = 0.0;   ///< by all bands, where they agree; else 0
+};
+
+/// The white noise of the channel that each band of a residual's spectrum would be. The residual
+/// x_k - sum_j a_j x_{k + j} - ... has the share |A|^2 of the noise's power, with
+/// A(omega) = 1 - sum_j a_j exp(i omega j).
+std::array<double, kBands> white_amplitudes(const Regression& made,
+                                            const std::vector<Lagged>& regressors,
+                                            std::size_t self) {
+  const std::size_t samples = fast_length_within(static_cast<std::size_t>(made.left.size()));
+  std::vector<double> weighted = window_values(Window::hann, samples);
+  const double window_power =
+      std::inner_product(weighted.begin(), weighted.end(), weighted.begin(), 0.0);
+  for (std::size_t k = 0; k < samples; ++k) weighted[k] *= made.left[static_cast<Eigen::Index>(k)];
+  RealTransform transform(samples);
+  std::vector<std::complex<double>> spectrum(transform.lines());
+  transform(weighted, spectrum);
+  std::array<double, kBands> amplitudes{};
+  for (std::size_t band = 0; band < kBands; ++band) {
+    std::vector<double> power;
+    for (std::size_t k = band * spectrum.size() / kBands; k < (band + 1) * spectrum.size() / kBands;
+         ++k) {
+      const double phase_rad =
+          2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(samples);
+      std::complex<double> passed = 1.0;
+      for (std::size_t j = 0; j < regressors.size(); ++j) {
+        if (regressors[j].signal != self) continue;
+        passed -= std::polar(1.0, phase_rad * regressors[j].lag) *
+                  made.shares[static_cast<Eigen::Index>(j)];
+      }
+      power.push_back(std::norm(spectrum[k]) / (std::norm(passed) * window_power));
+    }
+    // Powers of noise are distributed exponentially: their median is ln 2 times the mean.
+    amplitudes[band] = std::sqrt(median(std::move(power)) / std::numbers::ln2);
+  }
+  return amplitudes;
+}
+
+Unpredicted unpredicted_of(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                           const std::vector<bool>& usable) {
   const auto regressors =
       regressors_around(self, usable, {kOwnSamples, kOtherSamples, kOtherSamples});
   const Regression made =
@@ -57,8 +111,17 @@ double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_
     const double share = made.shares[static_cast<Eigen::Index>(j)];
     if (regressors[j].signal == self) power += share * share;
   }
-  return robust_deviation({made.left.data(), static_cast<std::size_t>(made.left.size())}) /
-         std::sqrt(power);
+  Unpredicted found;
+  found.deviation =
+      robust_deviation({made.left.data(), static_cast<std::size_t>(made.left.size())}) /
+      std::sqrt(power);
+  auto amplitudes = white_amplitudes(made, regressors, self);
+  std::ranges::sort(amplitudes);
+  found.lowest = amplitudes.front();
+  if (amplitudes.back() <= kMostColoured * amplitudes.front()) {
+    found.white = amplitudes[kBands / 2];
+  }
+  return found;
 }
 
 /// Standard deviation of what is white in the upper half of the spectrum; empty: it is not white.
@@ -88,19 +151,37 @@ void add_noise_of(std::size_t index, const CheckedRun& run, NoiseOfChannels& noi
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (!usable[i]) continue;
     const double unit = signals[i].deviation;
-    const double unpredicted = unit * residual_deviation(values, i, usable);
+    const Unpredicted unpredicted = unpredicted_of(values, i, usable);
+    const double floor = std::sqrt(transforms.of[i].floor_power);
     ChannelNoise own{index, *signals[i].sensor, transforms.period_s, unit,
-                     std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
-    const double white = white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0);
+                     std::min(unit * std::min(unpredicted.deviation, unpredicted.lowest), floor)};
+    const double white =
+        white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0) / unit;
     const bool is_unpredicted =
-        white > kLeastWhite * unpredicted && white < kMostWhite * unpredicted;
-    if (is_unpredicted && white > kLeastNoise * unit) own.certain = std::min(unpredicted, white);
+        white > kLeastWhite * unpredicted.deviation && white < kMostWhite * unpredicted.deviation;
+    const double certain =
+        std::max(unpredicted.white, is_unpredicted ? std::min(unpredicted.deviation, white) : 0.0);
+    if (certain > kLeastNoise) own.certain = unit * certain;
     noise[signals[i].name].push_back(own);
   }
 }
 
 bool are_comparable(const ChannelNoise& a, const ChannelNoise& b) {
   return std::max(a.period_s / b.period_s, b.period_s / a.period_s) < kMostRateRatio;
+}
+
+/// An upper bound of the noise that half of the other runs lead to expect; 0 without others.
+double expected_noise(const ChannelNoise& own, const std::vector<ChannelNoise>& of_runs) {
+  std::vector<double> bounds;
+  for (const auto& other : of_runs) {
+    if (other.run == own.run || !are_comparable(own, other)) continue;
+    // A wider range of the instrument has more noise.
+    bounds.push_back(std::max(1.0, own.deviation / other.deviation) * other.most);
+  }
+  if (bounds.empty()) return 0.0;
+  const auto middle = bounds.begin() + static_cast<std::ptrdiff_t>((bounds.size() - 1) / 2);
+  std::ranges::nth_element(bounds, middle);
+  return *middle;
 }
 
 }  // namespace
@@ -111,23 +192,19 @@ std::vector<RunFinding> check_noise_between_runs(const std::vector<CheckedRun>& 
   for (std::size_t i = 0; i < runs.size(); ++i) add_noise_of(i, runs[i], noise);
   std::vector<RunFinding> findings;
   for (const auto& [channel, of_runs] : noise) {
+    std::vector<RunFinding> noisy;
     for (const auto& own : of_runs) {
-      double others = 0.0;
-      for (const auto& other : of_runs) {
-        if (other.run != own.run && are_comparable(own, other)) {
-          // A wider range of the instrument has more noise.
-          const double range = std::max(1.0, own.deviation / other.deviation);
-          others = std::max(others, range * other.most);
-        }
-      }
-      if (others == 0.0 || own.certain <= kTimes * others) continue;
-      findings.push_back(
+      const double expected = expected_noise(own, of_runs);
+      if (expected == 0.0 || own.certain <= kTimes * expected) continue;
+      noisy.push_back(
           {own.run,
            {Fault::uneven_noise, channel, 0, runs[own.run].record->time_s.front(), own.certain,
             fmt::format(
                 "{} has noise of {:.2g} {} rms, {:.2g} times what the other runs lead to expect",
-                channel, own.certain, arm::unit(own.sensor), own.certain / others)}});
+                channel, own.certain, arm::unit(own.sensor), own.certain / expected)}});
     }
+    // Where most are noisy, the quiet run is the odd one.
+    if (2 * noisy.size() <= of_runs.size()) std::ranges::move(noisy, std::back_inserter(findings));
   }
   return findings;
 }

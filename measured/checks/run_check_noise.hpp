@@ -6,10 +6,13 @@
 
 namespace flexarm::measured {
 
-/// Channels whose noise in one run is a multiple of that in every other run with the same sensor.
-/// A run's noise counts where it is white in the upper half of the spectrum, and neither the
-/// channel's neighbours in time nor the other channels predict it. In the other runs the lowest
-/// band of the spectrum and the prediction's residual are upper bounds.
+/// Channels whose noise in a run is a multiple of what half of the other runs with the same sensor
+/// lead to expect, where at most half of the runs have so much.
+///
+/// A run's noise counts where it is white: in all bands of what neither the channel's neighbours in
+/// time nor the other channels predict, or in the upper half of the spectrum where they predict
+/// next to nothing. In the other runs the lowest band of either spectrum and the prediction's
+/// residual are upper bounds.
 ///
 /// Noise in proportion to the channel's standard deviation is that of the instrument's range, and
 /// no finding.

@@ -1,5 +1,6 @@
 #include "diagnose/modal_orders.hpp"
 
+#include "arm/input_error.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
 #include "diagnose/symptoms/root_shifts.hpp"
 #include "effects/registry/vocabulary.hpp"

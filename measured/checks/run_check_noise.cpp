@@ -36,10 +36,14 @@ constexpr double kMostUneven = 2.0;
 /// Of white noise the spectrum's level over what the prediction leaves.
 constexpr double kLeastWhite = 0.8;
 constexpr double kMostWhite = 1.1;
-/// Bands of the whole spectrum of a residual, and the largest over the smallest of their amplitudes
-/// in white noise.
+/// Bands of the whole spectrum of a residual. White noise has the same amplitude in all: the
+/// logarithms of the largest and the smallest differ by kColoured, and by kScatter/sqrt(n) for the
+/// scatter of an estimate from n lines.
 constexpr std::size_t kBands = 8;
-constexpr double kMostColoured = 1.4;
+constexpr double kColoured = 0.2;
+constexpr double kScatter = 2.0;
+/// Noise shows: somewhere the channel's own spectrum is as low as this many times its amplitude.
+constexpr double kMostHidden = 1.05;
 /// What counts as noise: standard deviations of the channel.
 constexpr double kLeastNoise = 0.003;
 constexpr double kTimes = 3.0;
@@ -118,7 +122,8 @@ Unpredicted unpredicted_of(const std::vector<Eigen::VectorXd>& values, std::size
   auto amplitudes = white_amplitudes(made, regressors, self);
   std::ranges::sort(amplitudes);
   found.lowest = amplitudes.front();
-  if (amplitudes.back() <= kMostColoured * amplitudes.front()) {
+  const double lines = static_cast<double>(made.left.size()) / (2.0 * kBands);
+  if (std::log(amplitudes.back() / amplitudes.front()) <= kColoured + kScatter / std::sqrt(lines)) {
     found.white = amplitudes[kBands / 2];
   }
   return found;
@@ -159,8 +164,9 @@ void add_noise_of(std::size_t index, const CheckedRun& run, NoiseOfChannels& noi
         white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0) / unit;
     const bool is_unpredicted =
         white > kLeastWhite * unpredicted.deviation && white < kMostWhite * unpredicted.deviation;
-    const double certain =
-        std::max(unpredicted.white, is_unpredicted ? std::min(unpredicted.deviation, white) : 0.0);
+    const bool shows = floor < kMostHidden * unit * unpredicted.white;
+    const double certain = std::max(shows ? unpredicted.white : 0.0,
+                                    is_unpredicted ? std::min(unpredicted.deviation, white) : 0.0);
     if (certain > kLeastNoise) own.certain = unit * certain;
     noise[signals[i].name].push_back(own);
   }

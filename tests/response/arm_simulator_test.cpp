@@ -7,6 +7,7 @@
 #include "response/formulation_maker.hpp"
 #include "response/time/time_model.hpp"
 
+#include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include <algorithm>

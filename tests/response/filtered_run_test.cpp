@@ -7,6 +7,7 @@
 #include "response/time/time_model.hpp"
 #include "tests/response/simulation_models.hpp"
 
+#include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -83,8 +83,10 @@ ColumnName split_column_name(string_view header) {
     std::string unit = find_unit(text.substr(at + 1));
     if (!unit.empty()) return {std::string(trimmed(text.substr(0, at))), std::move(unit)};
   }
-  // The longest tail first: "tip_acc_m_s2" ends in m_s2, not in s2. "torque_min" is the smallest.
-  for (auto at = text.find_first_of("_ ", 1); at != string_view::npos;
+  // The longest tail that may be a unit first: "tip_acc_m_s2" ends in m_s2, not in s2. "torque_min"
+  // is the smallest.
+  const std::size_t first = std::max(text.size(), kLongestUnit + 2) - kLongestUnit - 1;
+  for (auto at = text.find_first_of("_ ", first); at != string_view::npos;
        at = text.find_first_of("_ ", at + 1)) {
     std::string unit = find_unit(text.substr(at + 1));
     if (unit.empty() || unit == "1" || unit == "min") continue;

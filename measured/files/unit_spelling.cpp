@@ -280,7 +280,9 @@ string_view find_spelled(string_view text, const SpelledUnits& units) {
 std::string find_unit(string_view text) {
   static const SpelledUnits as_written = spelled_units(false);
   static const SpelledUnits in_lower = spelled_units(true);
-  const std::string plain = in_plain_signs(trimmed(text));
+  const string_view typed = trimmed(text);
+  if (typed.size() > kLongestUnit) return {};
+  const std::string plain = in_plain_signs(typed);
   string_view unit = find_spelled(plain, as_written);
   // A capital tells S (siemens), G (gauss) or M apart: units of one letter are not folded.
   if (unit.empty() && plain.size() != 1) unit = find_spelled(in_lower_case(plain), in_lower);

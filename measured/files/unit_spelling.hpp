@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace flexarm::measured {
+
+/// Characters of a unit: a longer text is none.
+inline constexpr std::size_t kLongestUnit = 64;
 
 /// The canonical name of a unit in any usual spelling; empty for one that is not known.
 ///

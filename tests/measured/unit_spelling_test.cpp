@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace flexarm::measured {
@@ -68,6 +70,20 @@ TEST(UnitSpelling, UnitsStandInHeadersInManyWays) {
   expect("theta(2)", "theta(2)", "");
   expect("strain@0.05 [1]", "strain@0.05", "1");
   expect("torque_min", "torque_min", "");
+}
+
+/// Each blank may stand in front of a unit: the time must not grow with the square of their number.
+TEST(UnitSpelling, LongHeadersTakeLittleTime) {
+  constexpr std::size_t kWords = 200'000;
+  std::string words = "t";
+  for (std::size_t i = 0; i < kWords; ++i) words += " b";
+  EXPECT_EQ(split_column_name(words).base, words);
+  EXPECT_EQ(split_column_name(words + " [rad]").unit, "rad");
+  EXPECT_EQ(split_column_name(words + " rad").base, words);
+  const std::string blanks = "t" + std::string(kWords, ' ') + "deg";
+  EXPECT_EQ(split_column_name(blanks).base, "t");
+  EXPECT_EQ(split_column_name(blanks).unit, "deg");
+  EXPECT_EQ(find_unit("m" + std::string(kLongestUnit, ' ') + "s"), "");
 }
 
 /// A unit beyond those of a record stands for its scale, where none is given.

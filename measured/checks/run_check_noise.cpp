@@ -40,7 +40,7 @@ constexpr double kMostWhite = 1.1;
 /// logarithms of the largest and the smallest differ by kColoured, and by kScatter/sqrt(n) for the
 /// scatter of an estimate from n lines.
 constexpr std::size_t kBands = 8;
-constexpr double kColoured = 0.2;
+constexpr double kColoured = 0.1;
 constexpr double kScatter = 2.0;
 /// Noise shows: somewhere the channel's own spectrum is as low as this many times its amplitude.
 constexpr double kMostHidden = 1.05;

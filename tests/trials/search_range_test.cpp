@@ -19,7 +19,7 @@ namespace {
 /// the sizes of their signals.
 struct Searched {
   explicit Searched(const TrialKey& key) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "search-range";
+    const auto folder = std::filesystem::path(testing::TempDir()) / ("search " + key.folder_name());
     truth = write_case(key, folder);
     hypotheses = diagnose::hypotheses(diagnose::read_experiment(folder / "measurement.toml"));
     std::filesystem::remove_all(folder);

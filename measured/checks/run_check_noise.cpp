@@ -2,21 +2,16 @@
 
 #include "measured/checks/data_check_prediction.hpp"
 #include "measured/checks/run_check_signals.hpp"
-#include "measured/spectra/fourier.hpp"
 #include "measured/spectra/robust.hpp"
-#include "measured/spectra/window.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,14 +31,6 @@ constexpr double kMostUneven = 2.0;
 /// Of white noise the spectrum's level over what the prediction leaves.
 constexpr double kLeastWhite = 0.8;
 constexpr double kMostWhite = 1.1;
-/// Bands of the whole spectrum of a residual. White noise has the same amplitude in all: the
-/// logarithms of the largest and the smallest differ by kColoured, and by kScatter/sqrt(n) for the
-/// scatter of an estimate from n lines.
-constexpr std::size_t kBands = 8;
-constexpr double kColoured = 0.1;
-constexpr double kScatter = 2.0;
-/// Noise shows: somewhere the channel's own spectrum is as low as this many times its amplitude.
-constexpr double kMostHidden = 1.05;
 /// What counts as noise: standard deviations of the channel.
 constexpr double kLeastNoise = 0.003;
 constexpr double kTimes = 3.0;
@@ -60,51 +47,9 @@ struct ChannelNoise {
   double certain = 0.0;    ///< of what is noise for certain; 0: none is
 };
 
-/// What neither the neighbours in time nor the other channels predict of a channel, as the noise of
-/// one sample in the channel's standard deviations.
-struct Unpredicted {
-  double deviation = 0.0;
-  double lowest = 0.0;  ///< by the weakest band of the spectrum
-  double white = 0.0;   ///< by all bands, where they agree; else 0
-};
-
-/// The white noise of the channel that each band of a residual's spectrum would be. The residual
-/// x_k - sum_j a_j x_{k + j} - ... has the share |A|^2 of the noise's power, with
-/// A(omega) = 1 - sum_j a_j exp(i omega j).
-std::array<double, kBands> white_amplitudes(const Regression& made,
-                                            const std::vector<Lagged>& regressors,
-                                            std::size_t self) {
-  const std::size_t samples = fast_length_within(static_cast<std::size_t>(made.left.size()));
-  std::vector<double> weighted = window_values(Window::hann, samples);
-  const double window_power =
-      std::inner_product(weighted.begin(), weighted.end(), weighted.begin(), 0.0);
-  for (std::size_t k = 0; k < samples; ++k) weighted[k] *= made.left[static_cast<Eigen::Index>(k)];
-  RealTransform transform(samples);
-  std::vector<std::complex<double>> spectrum(transform.lines());
-  transform(weighted, spectrum);
-  std::array<double, kBands> amplitudes{};
-  for (std::size_t band = 0; band < kBands; ++band) {
-    std::vector<double> power;
-    for (std::size_t k = band * spectrum.size() / kBands; k < (band + 1) * spectrum.size() / kBands;
-         ++k) {
-      const double phase_rad =
-          2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(samples);
-      std::complex<double> passed = 1.0;
-      for (std::size_t j = 0; j < regressors.size(); ++j) {
-        if (regressors[j].signal != self) continue;
-        passed -= std::polar(1.0, phase_rad * regressors[j].lag) *
-                  made.shares[static_cast<Eigen::Index>(j)];
-      }
-      power.push_back(std::norm(spectrum[k]) / (std::norm(passed) * window_power));
-    }
-    // Powers of noise are distributed exponentially: their median is ln 2 times the mean.
-    amplitudes[band] = std::sqrt(median(std::move(power)) / std::numbers::ln2);
-  }
-  return amplitudes;
-}
-
-Unpredicted unpredicted_of(const std::vector<Eigen::VectorXd>& values, std::size_t self,
-                           const std::vector<bool>& usable) {
+/// The residual of a prediction, as the noise of one sample, in the channel's standard deviations.
+double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_t self,
+                          const std::vector<bool>& usable) {
   const auto regressors =
       regressors_around(self, usable, {kOwnSamples, kOtherSamples, kOtherSamples});
   const Regression made =
@@ -115,18 +60,8 @@ Unpredicted unpredicted_of(const std::vector<Eigen::VectorXd>& values, std::size
     const double share = made.shares[static_cast<Eigen::Index>(j)];
     if (regressors[j].signal == self) power += share * share;
   }
-  Unpredicted found;
-  found.deviation =
-      robust_deviation({made.left.data(), static_cast<std::size_t>(made.left.size())}) /
-      std::sqrt(power);
-  auto amplitudes = white_amplitudes(made, regressors, self);
-  std::ranges::sort(amplitudes);
-  found.lowest = amplitudes.front();
-  const double lines = static_cast<double>(made.left.size()) / (2.0 * kBands);
-  if (std::log(amplitudes.back() / amplitudes.front()) <= kColoured + kScatter / std::sqrt(lines)) {
-    found.white = amplitudes[kBands / 2];
-  }
-  return found;
+  return robust_deviation({made.left.data(), static_cast<std::size_t>(made.left.size())}) /
+         std::sqrt(power);
 }
 
 /// Standard deviation of what is white in the upper half of the spectrum; empty: it is not white.
@@ -156,18 +91,13 @@ void add_noise_of(std::size_t index, const CheckedRun& run, NoiseOfChannels& noi
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (!usable[i]) continue;
     const double unit = signals[i].deviation;
-    const Unpredicted unpredicted = unpredicted_of(values, i, usable);
-    const double floor = std::sqrt(transforms.of[i].floor_power);
+    const double unpredicted = unit * residual_deviation(values, i, usable);
     ChannelNoise own{index, *signals[i].sensor, transforms.period_s, unit,
-                     std::min(unit * std::min(unpredicted.deviation, unpredicted.lowest), floor)};
-    const double white =
-        white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0) / unit;
+                     std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
+    const double white = white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0);
     const bool is_unpredicted =
-        white > kLeastWhite * unpredicted.deviation && white < kMostWhite * unpredicted.deviation;
-    const bool shows = floor < kMostHidden * unit * unpredicted.white;
-    const double certain = std::max(shows ? unpredicted.white : 0.0,
-                                    is_unpredicted ? std::min(unpredicted.deviation, white) : 0.0);
-    if (certain > kLeastNoise) own.certain = unit * certain;
+        white > kLeastWhite * unpredicted && white < kMostWhite * unpredicted;
+    if (is_unpredicted && white > kLeastNoise * unit) own.certain = std::min(unpredicted, white);
     noise[signals[i].name].push_back(own);
   }
 }

@@ -9,10 +9,9 @@ namespace flexarm::measured {
 /// Channels whose noise in a run is a multiple of what half of the other runs with the same sensor
 /// lead to expect, where at most half of the runs have so much.
 ///
-/// A run's noise counts where it is white in one of two ways: in all bands of what neither the
-/// channel's neighbours in time nor the other channels predict, if it shows in the channel's own
-/// spectrum; or in the upper half of that spectrum, where they predict next to nothing. In the other
-/// runs the lowest band of either spectrum and the prediction's residual are upper bounds.
+/// A run's noise counts where it is white in the upper half of the spectrum, and neither the
+/// channel's neighbours in time nor the other channels predict it. In the other runs the lowest
+/// band of the spectrum and the prediction's residual are upper bounds.
 ///
 /// Noise in proportion to the channel's standard deviation is that of the instrument's range, and
 /// no finding.

@@ -32,7 +32,8 @@ constexpr double kSame = 1.12;
 /// the most that the stated one may lack.
 constexpr double kBetter = 0.02;
 constexpr double kAsGood = 0.01;
-/// A run that is farther with every payload says nothing: friction moves it more than the torque.
+/// A run that is farther with every payload says nothing: the described arm explains next
+/// to nothing of it.
 constexpr double kFarthest = 0.96;
 
 /// A run beside the described arm with any payload.
@@ -66,6 +67,7 @@ class PayloadSearch {
 
 /// The factor of the payload with which the described arm is nearest.
 struct Nearest {
+  std::size_t search = 0;  ///< of all, the one that found it
   double factor = 1.0;
   double distance = 0.0;
   double stated_distance = 0.0;
@@ -134,21 +136,20 @@ std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
     searches.emplace_back(runs[i], arms);
   }
   if (compared.size() < 2 || std::ranges::all_of(searches, is_nearest_as_stated)) return {};
-  std::vector<std::size_t> judged;  // of `searches`
   std::vector<Nearest> found;
   for (std::size_t i = 0; i < searches.size(); ++i) {
-    const Nearest one = nearest(searches[i]);
-    if (one.distance > kFarthest) continue;
-    judged.push_back(i);
-    found.push_back(one);
+    Nearest one = nearest(searches[i]);
+    one.search = i;
+    if (one.distance <= kFarthest) found.push_back(one);
   }
   if (found.size() < 2) return {};
   const auto odd = odd_one(found);
   if (!odd) return {};
-  const std::size_t at = judged[*odd];
-  const CheckedRun& run = runs[compared[at]];
-  const double mass_kg = searches[at].payload_at(found[*odd].factor).mass_kg;
-  return {{compared[at],
+  const Nearest& other = found[*odd];
+  const std::size_t at = compared[other.search];
+  const CheckedRun& run = runs[at];
+  const double mass_kg = searches[other.search].payload_at(other.factor).mass_kg;
+  return {{at,
            {Fault::wrong_payload, "payload", 0, run.record->time_s.front(), mass_kg,
             fmt::format("the payload is {:.3g} kg by the response to the torque, not {:.4g} kg as "
                         "stated; the other runs agree with theirs",

@@ -115,9 +115,8 @@ double expected_noise(const ChannelNoise& own, const std::vector<ChannelNoise>& 
     bounds.push_back(std::max(1.0, own.deviation / other.deviation) * other.most);
   }
   if (bounds.empty()) return 0.0;
-  const auto middle = bounds.begin() + static_cast<std::ptrdiff_t>((bounds.size() - 1) / 2);
-  std::ranges::nth_element(bounds, middle);
-  return *middle;
+  std::ranges::sort(bounds);
+  return bounds[(bounds.size() - 1) / 2];
 }
 
 }  // namespace

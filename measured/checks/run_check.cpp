@@ -32,9 +32,11 @@ constexpr double kSame = 1.12;
 /// the most that the stated one may lack.
 constexpr double kBetter = 0.02;
 constexpr double kAsGood = 0.01;
+/// By how much a payload must bring the arm nearer to be believed.
+constexpr double kNearer = 0.003;
 /// A run that is farther with every payload says nothing: the described arm explains next
 /// to nothing of it.
-constexpr double kFarthest = 0.96;
+constexpr double kFarthest = 0.955;
 
 /// A run beside the described arm with any payload.
 class PayloadSearch {
@@ -73,7 +75,8 @@ struct Nearest {
   double stated_distance = 0.0;
 
   /// The share of what is explained that the stated payload does not explain.
-  double gain() const { return (stated_distance - distance) / std::max(1.0 - distance, 1e-12); }
+  double gain() const { return nearer() / std::max(1.0 - distance, 1e-12); }
+  double nearer() const { return stated_distance - distance; }
 };
 
 bool is_nearest_as_stated(const PayloadSearch& search) {
@@ -115,7 +118,8 @@ std::optional<std::size_t> odd_one(const std::vector<Nearest>& found) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double off = std::abs(logs[i] - usual);
     if (off <= std::log(kSame) || found[i].gain() <= kAsGood) continue;
-    if (odd || off < std::log(kOther) || found[i].gain() < kBetter) return std::nullopt;
+    const bool is_believed = found[i].gain() >= kBetter && found[i].nearer() >= kNearer;
+    if (odd || off < std::log(kOther) || !is_believed) return std::nullopt;
     odd = i;
   }
   return odd;

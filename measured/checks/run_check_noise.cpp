@@ -2,6 +2,7 @@
 
 #include "measured/checks/data_check_prediction.hpp"
 #include "measured/checks/run_check_signals.hpp"
+#include "measured/checks/run_check_unpredicted.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +23,6 @@ namespace {
 
 constexpr std::size_t kFewestNoiseSamples = 256;
 constexpr std::size_t kMostNoiseSamples = 16384;
-constexpr int kOwnSamples = 3;
-constexpr int kOtherSamples = 2;
 /// Bands of the upper half of the spectrum. The strongest may have a resonance; of the others the
 /// strongest is at most this many times the weakest in power.
 constexpr std::size_t kUpperBands = 4;
@@ -33,7 +32,7 @@ constexpr double kLeastWhite = 0.8;
 constexpr double kMostWhite = 1.1;
 /// What counts as noise: standard deviations of the channel.
 constexpr double kLeastNoise = 0.003;
-constexpr double kTimes = 3.0;
+constexpr double kTimes = 2.5;
 /// Sampling frequencies of runs whose noise is compared: a slower reading may be a mean.
 constexpr double kMostRateRatio = 1.5;
 
@@ -46,23 +45,6 @@ struct ChannelNoise {
   double most = 0.0;       ///< an upper bound
   double certain = 0.0;    ///< of what is noise for certain; 0: none is
 };
-
-/// The residual of a prediction, as the noise of one sample, in the channel's standard deviations.
-double residual_deviation(const std::vector<Eigen::VectorXd>& values, std::size_t self,
-                          const std::vector<bool>& usable) {
-  const auto regressors =
-      regressors_around(self, usable, {kOwnSamples, kOtherSamples, kOtherSamples});
-  const Regression made =
-      regress(values, self, regressors, kOwnSamples, values[0].size() - 2 * kOwnSamples);
-  // The noise of the channel's own neighbours is in the residual with their shares.
-  double power = 1.0;
-  for (std::size_t j = 0; j < regressors.size(); ++j) {
-    const double share = made.shares[static_cast<Eigen::Index>(j)];
-    if (regressors[j].signal == self) power += share * share;
-  }
-  return robust_deviation({made.left.data(), static_cast<std::size_t>(made.left.size())}) /
-         std::sqrt(power);
-}
 
 /// Standard deviation of what is white in the upper half of the spectrum; empty: it is not white.
 std::optional<double> white_upper_half(const Transform& transform, double window_power) {
@@ -91,14 +73,17 @@ void add_noise_of(std::size_t index, const CheckedRun& run, NoiseOfChannels& noi
   for (std::size_t i = 1; i < signals.size(); ++i) {
     if (!usable[i]) continue;
     const double unit = signals[i].deviation;
-    const double unpredicted = unit * residual_deviation(values, i, usable);
-    ChannelNoise own{index, *signals[i].sensor, transforms.period_s, unit,
-                     std::min(unpredicted, std::sqrt(transforms.of[i].floor_power))};
+    const auto unpredicted = unpredicted_noise(values, i, usable);
+    const double left = unit * unpredicted.most;
+    double certain = unit * unpredicted.certain;
     const double white = white_upper_half(transforms.of[i], transforms.window_power).value_or(0.0);
-    const bool is_unpredicted =
-        white > kLeastWhite * unpredicted && white < kMostWhite * unpredicted;
-    if (is_unpredicted && white > kLeastNoise * unit) own.certain = std::min(unpredicted, white);
-    noise[signals[i].name].push_back(own);
+    if (white > kLeastWhite * left && white < kMostWhite * left) {
+      certain = std::max(certain, std::min(left, white));
+    }
+    if (certain <= kLeastNoise * unit) certain = 0.0;
+    noise[signals[i].name].push_back({index, *signals[i].sensor, transforms.period_s, unit,
+                                      std::min(left, std::sqrt(transforms.of[i].floor_power)),
+                                      certain});
   }
 }
 

@@ -38,7 +38,9 @@ std::string excitation_text(const PlannedRun& run) {
   std::string text = fmt::format("{{ kind = \"{}\"", response::name(*excitation));
   for (const auto& [name, unit, value] : response::keys_of(*excitation)) {
     const bool is_word = value.find_first_not_of("0123456789+-.e") != std::string::npos;
-    text += fmt::format(", {} = {}", name, is_word ? measured::toml_string(value) : value);
+    // -0 is a whole number of TOML, which has no sign.
+    const std::string number = value == "-0" ? "-0.0" : value;
+    text += fmt::format(", {} = {}", name, is_word ? measured::toml_string(value) : number);
   }
   return text + " }  # N m, s, Hz";
 }

@@ -34,8 +34,7 @@ std::string equals_value(const toml::node& node) {
 
 std::optional<double> number_of(const toml::node& node) {
   if (const auto* number = node.as_integer()) return static_cast<double>(number->get());
-  // Zero has no sign: -0.0 would be written as -0, which is a whole number and read as 0.
-  if (const auto* number = node.as_floating_point()) return number->get() + 0.0;
+  if (const auto* number = node.as_floating_point()) return number->get();
   return std::nullopt;
 }
 

@@ -15,7 +15,7 @@ std::string_view kind_of(const toml::node& node);
 std::string equals_value(const toml::node& node);
 
 /// The value of a number; empty for what is none. A whole number beyond 2^53 is rounded to the next
-/// double: toml++'s value<double>() has none for it. Zero has no sign.
+/// double: toml++'s value<double>() has none for it.
 std::optional<double> number_of(const toml::node& node);
 
 }  // namespace flexarm::measured

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -225,7 +227,8 @@ void add_near_misses(const PredictedSelection& predicted, const JudgedSelection&
             misfit(problem.observations(), problem.experiment(), *left, problem.estimation_runs())
                 .relative_error;
       }
-      found.push_back({candidate.label(), judged.posterior.of_set(candidate),
+      found.push_back({fmt::format("{}", fmt::join(candidate.labels(), " + ")),
+                       judged.posterior.of_set(candidate),
                        share_taken(selection.nothing.estimation, one.estimation),
                        lead(one, selection.nothing), error});
     }
@@ -239,6 +242,9 @@ std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
   std::ranges::stable_sort(found, [](const NearMiss& one, const NearMiss& other) {
     return std::pair(-one.probability, one.error) < std::pair(-other.probability, other.error);
   });
+  // A set may be fitted more than once, from other values.
+  std::set<std::string> met;
+  std::erase_if(found, [&](const NearMiss& one) { return !met.insert(one.effects).second; });
   found.resize(std::min(kNearMisses, found.size()));
   return found;
 }

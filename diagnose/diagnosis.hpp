@@ -17,9 +17,9 @@
 
 namespace flexarm::diagnose {
 
-/// A set of effects that was fitted and not named.
+/// A set of effects that was fitted and not named; each set stands once.
 struct NearMiss {
-  std::string effects;       ///< "root_compliance + time_delay"
+  std::string effects;       ///< "root_compliance + time_delay", in alphabetical order
   double probability = 0.0;  ///< posterior, of exactly this set
   double share = 0.0;        ///< of the excess residual without causes that it explains
   double information = 0.0;  ///< delta BIC of no cause beyond it; 10 is decisive

@@ -4,11 +4,13 @@
 #include "diagnose/search/hypothesis.hpp"
 #include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "tests/diagnose/closed_loop_axis.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <string_view>
 #include <thread>
 
@@ -38,6 +40,19 @@ TEST(Fit, WithoutEffectsIsTheArmItself) {
   const Misfit left =
       misfit(problem.observations(), experiment, nothing.residuals, problem.estimation_runs());
   EXPECT_TRUE(left.is_noise()) << left.sum_of_squares / left.count;
+}
+
+TEST(Diagnose, RejectsASetOnce) {
+  // An unknown torque of the hub: the gain is fitted twice, and named neither time.
+  const Experiment experiment = axis_experiment_with_controller(
+      {.viscous_N_m_s_per_rad = 0.0,
+       .coulomb_N_m = 0.0,
+       .bias_N_m = 0.0,
+       .unrecorded_N_m = 0.01,
+       .unknown_N_m = [](double angle_rad, double) { return 0.6 * std::sin(12.0 * angle_rad); }});
+  const Diagnosis made = diagnose(experiment, named(experiment, {"torque_gain", "time_delay"}));
+  ASSERT_EQ(made.near_misses.size(), 1U);
+  EXPECT_EQ(made.near_misses.front().effects, "torque_gain");
 }
 
 TEST(Diagnose, OfDataWithNothingHiddenIsAdequate) {

@@ -30,14 +30,15 @@ constexpr std::size_t kSegment = 128;
 /// Lines 1 to 63 of a segment's spectrum, seven a band.
 constexpr std::size_t kBands = 9;
 constexpr std::size_t kBandLines = 7;
-/// The strongest band of white noise over the weakest, as deviations: in a long record, for others'
-/// noise comes in with the prediction, and what the scatter of n samples adds to the logarithm.
+/// The strongest band of white noise over the weakest, as deviations, in a record of n samples:
+/// kMostUnevenBands exp(kScatter/sqrt(n)). In a long record it is not 1, since the noise of the
+/// other channels comes in with the prediction.
 constexpr double kMostUnevenBands = 1.2;
-constexpr double kScatter = 7.5;  // over sqrt(n)
+constexpr double kScatter = 7.5;
 /// Of white noise, what a prediction from more samples leaves of the residual.
 constexpr double kLeastLeft = 0.9;
-/// Root mean square of normal noise over its robust deviation: friction that reverses has bursts.
-/// What the scatter of n samples adds, over sqrt(n), is one and a half standard errors.
+/// Root mean square of normal noise over its robust deviation in a record of n samples:
+/// kMostBursts + kBurstScatter/sqrt(n). Friction that reverses has bursts.
 constexpr double kMostBursts = 1.03;
 constexpr double kBurstScatter = 1.5;
 

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace flexarm::measured {
 
@@ -49,14 +50,18 @@ struct Residual {
   double highest = 0.0;
 };
 
+/// The share that a sample `lag` later has in the prediction of its own channel.
+struct OwnShare {
+  int lag = 0;
+  double share = 0.0;
+};
+
 /// Standard deviations of the white noise that leaves this much of the spectrum in each band:
 /// residual over |1 - S(omega)|.
-std::array<double, kBands> band_deviations(const Regression& made,
-                                           const std::vector<Lagged>& regressors,
-                                           std::size_t self) {
+std::array<double, kBands> band_deviations(std::span<const double> left,
+                                           const std::vector<OwnShare>& own) {
   SegmentPlan plan{kSegment, kSegment / 2};
   plan.detrend = Detrend::none;
-  const std::span<const double> left(made.left.data(), static_cast<std::size_t>(made.left.size()));
   const auto spectrum = cross_spectra({left}, {}, 1.0, plan).input;  // of variance 1: 2 a line
   std::array<double, kBands> deviations{};
   for (std::size_t band = 0; band < kBands; ++band) {
@@ -65,11 +70,7 @@ std::array<double, kBands> band_deviations(const Regression& made,
     for (std::size_t k = 1 + band * kBandLines; k < 1 + (band + 1) * kBandLines; ++k) {
       const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kSegment;
       std::complex<double> filter = 1.0;
-      for (std::size_t j = 0; j < regressors.size(); ++j) {
-        if (regressors[j].signal != self) continue;
-        filter -=
-            made.shares[static_cast<Eigen::Index>(j)] * std::polar(1.0, angle * regressors[j].lag);
-      }
+      for (const auto& [lag, share] : own) filter -= share * std::polar(1.0, angle * lag);
       power += spectrum[k] / 2.0;
       passed += std::norm(filter);
     }
@@ -88,19 +89,23 @@ std::optional<Residual> residual_of(const std::vector<Eigen::VectorXd>& values, 
   if (rows < kSamplesARegressor * columns) return std::nullopt;
   const Regression made = regress(values, self, regressors, around.own, rows);
   // The noise of the channel's own neighbours is in the residual with their shares.
+  std::vector<OwnShare> own;
   double power = 1.0;
   for (std::size_t j = 0; j < regressors.size(); ++j) {
+    if (regressors[j].signal != self) continue;
     const double share = made.shares[static_cast<Eigen::Index>(j)];
-    if (regressors[j].signal == self) power += share * share;
+    own.push_back({regressors[j].lag, share});
+    power += share * share;
   }
   // A fit takes its part of the noise.
-  const double left = 1.0 - static_cast<double>(columns) / static_cast<double>(rows);
-  const auto bands = band_deviations(made, regressors, self);
+  const double kept = std::sqrt(1.0 - static_cast<double>(columns) / static_cast<double>(rows));
+  const std::span<const double> left(made.left.data(), static_cast<std::size_t>(rows));
+  const auto bands = band_deviations(left, own);
   const auto [lowest, highest] = std::ranges::minmax(bands);
-  const double deviation = robust_deviation({made.left.data(), static_cast<std::size_t>(rows)});
-  return Residual{deviation / std::sqrt(left * power),
-                  std::sqrt(made.left.squaredNorm() / static_cast<double>(rows)) / deviation,
-                  lowest / std::sqrt(left), highest / std::sqrt(left)};
+  const double deviation = robust_deviation(left);
+  const double rms = std::sqrt(made.left.squaredNorm() / static_cast<double>(rows));
+  return Residual{deviation / (kept * std::sqrt(power)), rms / deviation, lowest / kept,
+                  highest / kept};
 }
 
 }  // namespace
@@ -111,14 +116,14 @@ UnpredictedNoise unpredicted_noise(const std::vector<Eigen::VectorXd>& values, s
   const double root = std::sqrt(static_cast<double>(values[self].size()));
   const double even = kMostUnevenBands * std::exp(kScatter / root);
   const double bursts = kMostBursts + kBurstScatter / root;
-  std::optional<double> before;
+  double before = 0.0;
   for (const Around& around : kPredictors) {
     const auto made = residual_of(values, self, usable, around);
     if (!made) break;
     noise.most = std::min(noise.most, made->deviation);
     // Of the prediction from most samples.
     const bool is_noise = made->highest < even * made->lowest && made->bursts < bursts &&
-                          made->deviation > kLeastLeft * before.value_or(0.0);
+                          made->deviation > kLeastLeft * before;
     noise.certain = is_noise ? std::min(made->deviation, made->lowest) : 0.0;
     before = made->deviation;
   }

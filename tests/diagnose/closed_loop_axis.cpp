@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -30,6 +31,14 @@ double reference_rad(double time_s) {
 }
 
 }  // namespace
+
+Axis axis_with(std::function<double(double, double)> law_N_m) {
+  return {.viscous_N_m_s_per_rad = 0.0,
+          .coulomb_N_m = 0.0,
+          .bias_N_m = 0.0,
+          .unrecorded_N_m = 0.01,
+          .unknown_N_m = std::move(law_N_m)};
+}
 
 measured::TimeRecord axis_record(const Axis& axis, std::uint64_t seed) {
   constexpr int kSteps = 100;

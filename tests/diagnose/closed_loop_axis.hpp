@@ -23,6 +23,8 @@ struct Axis {
   /// A law of no name; of angle [rad] and velocity [rad/s], in N m.
   std::function<double(double, double)> unknown_N_m = {};
 };
+/// Nothing but a law that no hypothesis is, and a hundredth of a N m that nobody recorded.
+Axis axis_with(std::function<double(double, double)> law_N_m);
 inline constexpr double kAxisPeriod_s = 0.002;
 inline constexpr double kAxisEncoder_rad = 2e-5;
 

@@ -12,15 +12,6 @@
 namespace flexarm::diagnose {
 namespace {
 
-/// Nothing but a law that no hypothesis is.
-Axis axis_with(std::function<double(double, double)> law) {
-  return {.viscous_N_m_s_per_rad = 0.0,
-          .coulomb_N_m = 0.0,
-          .bias_N_m = 0.0,
-          .unrecorded_N_m = 0.01,
-          .unknown_N_m = std::move(law)};
-}
-
 Diagnosis diagnosed(const Axis& axis) {
   const Experiment experiment = axis_experiment_with_controller(axis);
   return diagnose(experiment, named(experiment, {"torque_gain", "time_delay"}));

@@ -45,11 +45,7 @@ TEST(Fit, WithoutEffectsIsTheArmItself) {
 TEST(Diagnose, RejectsASetOnce) {
   // An unknown torque of the hub: the gain is fitted twice, and named neither time.
   const Experiment experiment = axis_experiment_with_controller(
-      {.viscous_N_m_s_per_rad = 0.0,
-       .coulomb_N_m = 0.0,
-       .bias_N_m = 0.0,
-       .unrecorded_N_m = 0.01,
-       .unknown_N_m = [](double angle_rad, double) { return 0.6 * std::sin(12.0 * angle_rad); }});
+      axis_with([](double angle_rad, double) { return 0.6 * std::sin(12.0 * angle_rad); }));
   const Diagnosis made = diagnose(experiment, named(experiment, {"torque_gain", "time_delay"}));
   ASSERT_EQ(made.near_misses.size(), 1U);
   EXPECT_EQ(made.near_misses.front().effects, "torque_gain");

@@ -2,6 +2,7 @@
 
 #include "response/frequency/frequency_response.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,6 +13,8 @@ namespace {
 
 constexpr int kPoints = 240;
 constexpr double kLargestAngle = 0.97 * std::numbers::pi;
+/// Half-widths on either side that are shown however near the next pole is.
+constexpr double kLeastHalfWidths = 2.0;
 
 double frequency_Hz(const arm::PolePair& pole) {
   return pole.first_rad_per_s.imag() / (2.0 * std::numbers::pi);
@@ -42,8 +45,11 @@ std::vector<Resonance> resonances(const AnyFormulation& formulation, const Linea
     const double centre_Hz = frequency_Hz(pairs[i]);
     const double half_width_Hz = std::abs(pole.real()) / (2.0 * std::numbers::pi);
     if (half_width_Hz == 0.0 || !(centre_Hz > from_Hz && centre_Hz < to_Hz)) continue;
-    const double lowest = midway_Hz(pairs, i, i - 1, 0.0);  // i - 1 wraps for the first
-    const double highest = midway_Hz(pairs, i, i + 1, std::numeric_limits<double>::infinity());
+    const double least_Hz = kLeastHalfWidths * half_width_Hz;
+    const double lowest =  // i - 1 wraps for the first
+        std::max(0.0, std::min(midway_Hz(pairs, i, i - 1, 0.0), centre_Hz - least_Hz));
+    const double highest = std::max(
+        midway_Hz(pairs, i, i + 1, std::numeric_limits<double>::infinity()), centre_Hz + least_Hz);
     Resonance resonance;
     resonance.order = static_cast<int>(i);
     resonance.pole_rad_per_s = pole;

@@ -96,7 +96,7 @@ TEST(StabilisationFigure, OfTheArmHasAColumnAtEachFittedPole) {
   }
   const std::string svg = to_svg(figure);
   EXPECT_LT(svg.size(), kMostBytes);
-  for (const char* text : {"order of the denominator", "frequency [Hz]", "fitted pole [Hz]",
+  for (const char* text : {"order of the denominator", "frequency [Hz]", "fitted pole",
                            "mean |H|, log", "stable pole"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }

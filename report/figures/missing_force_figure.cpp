@@ -74,13 +74,13 @@ Panel shares_panel(const diagnose::MissingForce& force) {
     const double y = count - static_cast<double>(i);
     panel.y.ticks.push_back({y, in_words(port_name(port))});
     for (const double side : {-diagnose::kDistance, diagnose::kDistance}) {
-      bars.x.push_back(100.0 * (port.share + side * port.std_error));
+      bars.x.push_back(explained_percent(port.share + side * port.std_error));
       bars.y.push_back(y);
     }
     bars.x.push_back(bars.x.back());
     bars.y.push_back(kNotDrawn);
     Series& own = shares[i < force.stated ? 0 : 1];
-    own.x.push_back(100.0 * port.share);
+    own.x.push_back(explained_percent(port.share));
     own.y.push_back(y);
   }
   constexpr double kLeast_percent = 100.0 * diagnose::kLeastPortShare;

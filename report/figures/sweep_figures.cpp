@@ -296,7 +296,7 @@ std::vector<NamedFigure> sweep_plots(const SweepResult& result) {
   draw(result, "poles", "Poles", {poles}, plots);
   auto damped = damped_groups(result);
   for (auto& group : damped) {
-    if (two) group.title = "track";
+    if (two) group.title = "pole";
   }
   draw(result, "damped-poles", "Poles with damping", damped, plots);
   for (const auto& sensor : result.task.questions.sensors) {

@@ -239,7 +239,7 @@ export class PanelPlot {
   }
 }
 
-function yAxisWidth(width: number): number {
+export function yAxisWidth(width: number): number {
   return width < 500 ? 50 : 62;
 }
 

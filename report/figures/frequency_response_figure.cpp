@@ -228,8 +228,12 @@ Panel phase_panel(const MeasuredResponse& m, const std::vector<double>& interval
     of_models.push_back({model.frequency_Hz, continuous_phase_deg(model.response)});
     turn_towards(of_models.front(), of_models.back());
   }
-  const auto phase =
-      measured_phase_deg(m, interval, of_models.empty() ? nullptr : &of_models.front());
+  auto phase = measured_phase_deg(m, interval, of_models.empty() ? nullptr : &of_models.front());
+  const double turn_deg = to_principal_turn_deg(phase);
+  for (double& value : phase) value += turn_deg;
+  for (PhaseCurve& of_model : of_models) {
+    for (double& value : of_model.phase_deg) value += turn_deg;
+  }
   const Series curve = measured_curve(kMeasured, m.frequency_Hz, phase);
   panel.series.push_back(phase_series(kMeasured, curve.x, curve.y, curve.style));
   for (std::size_t i = 0; i < models.size(); ++i) {

@@ -63,7 +63,10 @@ Panel force_spectrum_panel(const diagnose::PortShare& port, const diagnose::Forc
 Panel shares_panel(const diagnose::MissingForce& force) {
   const auto count = static_cast<double>(force.ports.size());
   Panel panel{.title = "by port",
-              .x = Axis{.label = "explained share of the excess residual", .unit = "%"},
+              .x = Axis{.label = "explained share of the excess residual",
+                        .unit = "%",
+                        .minimum = 0.0,
+                        .maximum = 100.0},
               .y = {.minimum = 0.0, .maximum = count + 1.0}};
   Series bars{"± 2 standard errors", {}, {}, {.colour = grey, .line_width_px = 1.5}};
   std::array<Series, 2> shares;

@@ -51,6 +51,12 @@ std::vector<double> continuous_phase_deg(const std::vector<std::complex<double>>
   return phases;
 }
 
+double to_principal_turn_deg(const std::vector<double>& phase_deg) {
+  const auto first =
+      std::ranges::find_if(phase_deg, [](double phase) { return std::isfinite(phase); });
+  return first == phase_deg.end() ? 0.0 : principal_deg(*first) - *first;
+}
+
 void turn_towards(const PhaseCurve& reference, PhaseCurve& curve) {
   auto& phase = curve.phase_deg;
   for (std::size_t from = 0; from < phase.size();) {

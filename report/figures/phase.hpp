@@ -21,6 +21,9 @@ struct PhaseCurve {
   std::vector<double> phase_deg = {};
 };
 
+/// Whole turns [deg] that bring the first of these phases to its principal value; 0 without one.
+double to_principal_turn_deg(const std::vector<double>& phase_deg);
+
 /// Turns each piece of a curve between gaps by whole turns, so that the median of its distances
 /// from the reference is less than half a turn. A piece beyond the reference stays.
 void turn_towards(const PhaseCurve& reference, PhaseCurve& curve);

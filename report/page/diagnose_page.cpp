@@ -1,6 +1,7 @@
 #include "report/page/diagnose_page.hpp"
 
 #include "report/figures/meaning.hpp"
+#include "report/figures/overlay_figure.hpp"
 #include "report/page/cause_blocks.hpp"
 #include "report/page/diagnosed_channels.hpp"
 #include "report/page/diagnosed_maps.hpp"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -294,7 +296,12 @@ Section prediction_section(const Diagnosis& diagnosis) {
 Section method_section(const Diagnosis& diagnosis) {
   Section section{"method", "Model and data"};
   add_text(section, predictor_text(diagnosis));
-  add_text(section, formulations_text(diagnosis.formulations));
+  std::string formulations = formulations_text(diagnosis.formulations);
+  if (const auto at = formulations.find(kExtendedName);
+      !has_after(diagnosis) && at != std::string::npos) {
+    formulations.replace(at, std::string_view(kExtendedName).size(), kBaselineName);
+  }
+  add_text(section, formulations);
   for (const std::string& notice : diagnosis.notices) section.text.push_back(sentence_of(notice));
   for (const std::string& text : accepted_texts(diagnosis)) {
     section.text.push_back(sentence_of(text));

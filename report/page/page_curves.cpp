@@ -95,6 +95,10 @@ std::vector<PhaseCurve> phases_of(const std::vector<BodeCurve>& curves) {
   if (model == curves.end()) return phases;
   const PhaseCurve reference = phases[static_cast<std::size_t>(model - curves.begin())];
   for (PhaseCurve& phase : phases) turn_towards(reference, phase);
+  const double turn_deg = to_principal_turn_deg(phases.front().phase_deg);
+  for (PhaseCurve& phase : phases) {
+    for (double& value : phase.phase_deg) value += turn_deg;
+  }
   return phases;
 }
 

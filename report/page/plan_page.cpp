@@ -52,7 +52,7 @@ RankingBlock distinguishability(const Plan& plan) {
       item.share = share_of(lead);
       item.value = nearest ? lead_words(lead) : "no alternative";
       item.details.push_back(
-          {"minimum detectable value", text_in_words(minimum_detectable(plan.effects[i]))});
+          {"minimum detectable value", unit_text(text_in_words(minimum_detectable(plan.effects[i])))});
       if (nearest) {
         item.details.push_back({"nearest alternative", effect_words(plan, nearest->effect)});
       }

@@ -78,14 +78,15 @@ TEST_F(FigureOptionsOf, UnitsAreThoseOfEveryBodeDiagram) {
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"response", "rig.toml"}, {"compare", "rig.toml", "--quick"}}) {
     std::vector<std::string> with = command;
-    with.insert(with.end(), {"--sensor", "hub_angle", "--out", "out", "--force"});
+    const std::string picture = command.front() + "/bode-hub_angle.svg";
+    with.insert(with.end(), {"--sensor", "hub_angle", "--out", command.front(), "--force"});
     ASSERT_EQ(run(with).status, 0);
-    const std::string absolute = text_of("out/bode-hub_angle.svg");
+    const std::string absolute = text_of(picture);
     EXPECT_THAT(absolute, HasSubstr("magnitude [rad/(N m)]"));
     EXPECT_THAT(absolute, HasSubstr("frequency [Hz]"));
     with.insert(with.end(), {"--magnitude", "dB", "--frequency-unit", "rad/s"});
     ASSERT_EQ(run(with).status, 0);
-    const std::string decibel = text_of("out/bode-hub_angle.svg");
+    const std::string decibel = text_of(picture);
     EXPECT_THAT(decibel, HasSubstr("magnitude [dB re 1 rad/(N m)]"));
     EXPECT_THAT(decibel, HasSubstr("frequency [rad/s]"));
   }

@@ -73,6 +73,13 @@ TEST(TurnTowards, MovesEachPieceByWholeTurnsToTheReference) {
   EXPECT_THAT(measured.phase_deg, ElementsAre(-12, -95, IsNan(), -275, -365, -470));
 }
 
+TEST(PrincipalTurn, BringsTheFirstPhaseToItsPrincipalValue) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(to_principal_turn_deg({kNone, -540, 100}), 360.0);
+  EXPECT_EQ(to_principal_turn_deg({-200, -900}), 0.0);
+  EXPECT_EQ(to_principal_turn_deg({kNone}), 0.0);
+}
+
 TEST(TurnTowards, LeavesWhatTheReferenceDoesNotReach) {
   PhaseCurve measured{{7, 8}, {300, 310}};
   turn_towards({{1, 2}, {0, 0}}, measured);

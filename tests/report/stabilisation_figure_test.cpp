@@ -55,7 +55,7 @@ TEST(StabilisationFigure, LabelsFittedPolesInTheBand) {
       stabilisation_figure(chart(), {.fitted_poles_Hz = {12.1, 12.2, 12.3, 70.0}});
   const auto& labels = figure.stacks[0].panels[0].annotations;
   ASSERT_EQ(labels.size(), 3U);
-  EXPECT_EQ(labels[0].text, "12.100");
+  EXPECT_EQ(labels[0].text, "12.10");
   EXPECT_EQ(overlapping_labels(figure), 0);
 }
 

@@ -178,7 +178,9 @@ std::optional<Figure> overlay_figure(const Experiment& experiment, const Diagnos
                               time_s[lens.from], time_s[lens.to - 1]);
   figure.width_px += kLensWidth_px;
   figure.stacks.push_back(stack_of(record, signals, lens, has_extended));
-  for (Panel& panel : figure.stacks.back().panels) panel.note.clear();  // they are of the run
+  for (Panel& panel : figure.stacks.back().panels) {
+    if (!panel.note.empty()) panel.note = " ";  // they are of the run; as much room as on the left
+  }
   return figure;
 }
 

@@ -74,7 +74,10 @@ std::string response_unit(const arm::Sensor& sensor) {
 }
 
 std::string percent_of(double part) {
-  return std::isfinite(part) ? fmt::format("{:.3g} %", 100.0 * part) : "–";
+  if (!std::isfinite(part)) return "–";
+  const double percent = 100.0 * part;
+  return std::abs(percent) < 1000.0 ? fmt::format("{:.3g} %", percent)
+                                    : fmt::format("{:.0f} %", percent);
 }
 
 std::string estimate_of(double value, double std_error, const std::string& unit) {

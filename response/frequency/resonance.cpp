@@ -69,9 +69,9 @@ std::vector<Resonance> resonances(const AnyFormulation& formulation, const Linea
         std::abs(resonance.pole_rad_per_s.real()) / (2.0 * std::numbers::pi);
     const double least_Hz = kLeastHalfWidths * half_width_Hz;
     const double most_Hz = std::tan(kLargestAngle / 2.0) * half_width_Hz;
-    // i - 1 wraps for the first.
-    const double below_Hz =
-        std::min(midway_Hz(pairs, i, i - 1, centre_Hz / kAlone), centre_Hz - least_Hz);
+    // i - 1 wraps for the first. Towards 0 the response may go to infinity.
+    const double below_Hz = std::min(midway_Hz(pairs, i, i - 1, centre_Hz / kAlone),
+                                     std::max(centre_Hz - least_Hz, centre_Hz / kAlone));
     const double above_Hz =
         std::max(midway_Hz(pairs, i, i + 1, centre_Hz * kAlone), centre_Hz + least_Hz);
     const auto first = values.lower_bound(std::max(below_Hz, centre_Hz - most_Hz));

@@ -37,6 +37,7 @@ TEST(PageWords, UnitsArePrinted) {
 TEST(PageWords, WhatIsNoNumberIsADash) {
   EXPECT_EQ(percent_of(NAN), "–");
   EXPECT_EQ(percent_of(0.605), "60.5 %");
+  EXPECT_EQ(percent_of(13.83), "1383 %");
   EXPECT_EQ(number_of(INFINITY, 3), "–");
 }
 

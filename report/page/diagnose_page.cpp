@@ -87,7 +87,7 @@ std::vector<Fact> facts_of_what_is_left(const Diagnosis& diagnosis) {
   std::vector<Fact> facts = {
       {"NRMSE, estimation runs", fall_text(gain.before, gain.after, has_simulation_after)}};
   if (const auto& held_out = diagnosis.validation) {
-    facts.push_back({"NRMSE, validation runs (held out)",
+    facts.push_back({"NRMSE, validation runs",
                      fall_text(held_out->before, held_out->after, has_simulation_after)});
   }
   facts.push_back({"noise floor", percent_of(gain.noise_floor)});

@@ -22,6 +22,8 @@ namespace {
 using report::FigureFormat;
 
 constexpr std::array kFormats = {FigureFormat::svg, FigureFormat::pdf, FigureFormat::png};
+constexpr const char* kMinusOne = "minus-one";
+constexpr const char* kNegativeFrequencies = "negative-frequencies";
 constexpr double kPixelsPerInch = 96.0;
 constexpr double kPixelsPerPoint = kPixelsPerInch / 72.0;
 constexpr int kLeastSide_px = 100;
@@ -42,6 +44,15 @@ FigureFormat format_named(const std::string& name) {
   }
   throw arm::InputError(
       fmt::format("--figure-format {}: must be svg, pdf or png", arm::shown(name)));
+}
+
+/// Whether an option has the second of its two values; an empty one has the first.
+bool is_second(const char* option, const std::string& value, const char* first,
+               const char* second) {
+  if (value == second) return true;
+  if (value.empty() || value == first) return false;
+  throw arm::InputError(
+      fmt::format("{} {}: must be {} or {}", option, arm::shown(value), first, second));
 }
 
 /// The number that all of `text` is; 0 where it is none.
@@ -98,9 +109,13 @@ void FigureChoice::require_valid(const std::string& folder) const {
     if (!size.empty()) refuse("--figure-size");
     if (!font.empty()) refuse("--font");
     if (font_size_pt) refuse("--font-size");
+    if (!magnitude.empty()) refuse("--magnitude");
+    if (!frequency_unit.empty()) refuse("--frequency-unit");
+    if (!nyquist.empty()) refuse("--nyquist");
     return;
   }
   options();
+  nyquist_marks();
   report::run_gnuplot("");  // throws where there is none
 }
 
@@ -126,7 +141,22 @@ report::FigureOptions FigureChoice::options() const {
     }
     options.font_size_px = kPixelsPerPoint * *font_size_pt;
   }
+  if (is_second("--magnitude", magnitude, "absolute", "dB")) {
+    options.magnitude = report::MagnitudeScale::decibel;
+  }
+  if (is_second("--frequency-unit", frequency_unit, "Hz", "rad/s")) {
+    options.frequency = report::FrequencyUnit::radians_per_second;
+  }
   return options;
+}
+
+report::NyquistMarks FigureChoice::nyquist_marks() const {
+  report::NyquistMarks marks;
+  for (const std::string& name : nyquist) {
+    const bool is_negative = is_second("--nyquist", name, kMinusOne, kNegativeFrequencies);
+    (is_negative ? marks.negative_frequencies : marks.minus_one) = true;
+  }
+  return marks;
 }
 
 void FigureChoice::add_to(std::vector<measured::NamedContent>& files,
@@ -147,6 +177,17 @@ void add_figure_choice(CLI::App& parser, FigureChoice& choice) {
   parser.add_option("--font", choice.font, "Font family of figures [sans-serif]")
       ->check(not_empty());
   parser.add_option("--font-size", choice.font_size_pt, "Font size of figures in points [10]");
+  parser
+      .add_option("--magnitude", choice.magnitude,
+                  "Magnitudes of frequency responses in figures: absolute or dB [absolute]")
+      ->check(not_empty());
+  parser
+      .add_option("--frequency-unit", choice.frequency_unit,
+                  "Unit of frequency axes of figures: Hz or rad/s [Hz]")
+      ->check(not_empty());
+  add_list_option(parser, "--nyquist", choice.nyquist,
+                  "Shown in Nyquist diagrams besides: minus-one, negative-frequencies, "
+                  "comma-separated");
 }
 
 }  // namespace flexarm::app

@@ -2,6 +2,7 @@
 
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/figure_files.hpp"
+#include "report/figures/nyquist_figure.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -20,17 +21,22 @@ struct FigureChoice {
   std::string size;
   std::string font;
   std::optional<double> font_size_pt;
+  std::string magnitude;
+  std::string frequency_unit;
+  std::vector<std::string> nyquist;
 
-  /// Throws arm::InputError for a format, size or font that cannot be drawn, and for any of them
-  /// where there is no `folder` for figures. Without gnuplot too, where there is one.
+  /// Throws arm::InputError for an option that has no such value, and for any of them where there
+  /// is no `folder` for figures. Without gnuplot too, where there is one.
   void require_valid(const std::string& folder) const;
   report::FigureOptions options() const;
+  report::NyquistMarks nyquist_marks() const;
   /// Adds the figures, drawn, to the files of a folder; `folder` is in it.
   void add_to(std::vector<measured::NamedContent>& files, const std::filesystem::path& folder,
               const std::vector<report::NamedFigure>& figures) const;
 };
 
-/// `--figure-format`, `--figure-size`, `--font` and `--font-size`.
+/// `--figure-format`, `--figure-size`, `--font`, `--font-size`, `--magnitude`, `--frequency-unit`
+/// and `--nyquist`, in all commands that draw.
 void add_figure_choice(CLI::App& parser, FigureChoice& choice);
 
 }  // namespace flexarm::app

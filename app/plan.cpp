@@ -87,15 +87,18 @@ std::string text_of_plan(const diagnose::Plan& plan, bool verbose) {
   std::string text = screen_paragraph(report::plan_summary(plan)) + "\n";
   for (const auto& notice : plan.notices) text += screen_note(notice);
   if (!plan.notices.empty()) text += "\n";
+  if (!plan.ties.empty()) {
+    text += screen_rows(report::tie_table(plan), verbose ? kAllRows : kScreenRows,
+                        "--verbose, --out or --json", 2);
+  }
   text += improvement_text(plan);
   text += screen_rows(report::detection_table(plan), verbose ? kAllRows : kScreenRows,
                       "--verbose, --out or --json");
   if (!verbose) return text;
   text += report::separation_matrix(plan) + "\n";
   if (plan.ties.empty()) return text;
-  return text + screen_table(report::tie_table(plan), 2) +
-         screen_table(
-             report::further_run_table(plan.further, kPrintedRuns, "Value of one additional run"));
+  return text + screen_table(report::further_run_table(plan.further, kPrintedRuns,
+                                                       "Value of one additional run"));
 }
 
 /// Whether two effects can be told apart or not at all: of one effect there is nothing to draw.

@@ -5,12 +5,18 @@
 #include "app/kept_inputs.hpp"
 #include "app/version.hpp"
 #include "arm/input_error.hpp"
+#include "arm/number.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/page/page_file.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
 #include <string_view>
 #include <utility>
 
@@ -43,6 +49,19 @@ std::string typed(std::string_view argument) {
   return made + "'";
 }
 
+/// The date of the run in UTC; that of SOURCE_DATE_EPOCH, where it is set, so that a page can be
+/// made again.
+std::string today() {
+  std::time_t seconds = std::time(nullptr);
+  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr std::int64_t kYear9999_s = 253402300799;
+    if (const auto given = arm::parse_number<std::int64_t>(epoch)) {
+      seconds = std::clamp(*given, std::int64_t{0}, kYear9999_s);
+    }
+  }
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(seconds));
+}
+
 }  // namespace
 
 void note_command_line(int argc, const char* const* argv) {
@@ -62,6 +81,7 @@ void ReportChoice::prepare(const std::string& folder, const std::vector<fs::path
 }
 
 void ReportChoice::write(report::page::PageDocument document) const {
+  document.date = today();
   measured::write_atomically(file, report::page::page_html(std::move(document)));
 }
 

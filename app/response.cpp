@@ -165,7 +165,8 @@ void add_files(const fs::path& folder, const std::string& formulation,
     write_csv(fmt::format("factors-{}.csv", arm::to_string(study.response.sensors[k])),
               report::factors_table(study, k));
   }
-  figures.add_to(files, folder, report::response_plots(formulation, study));
+  figures.add_to(files, folder,
+                 report::response_plots(formulation, study, figures.nyquist_marks()));
 }
 
 std::string next_step(const ResponseArguments& arguments) {

@@ -23,8 +23,11 @@ std::string odds_text(double odds) {
 std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share,
                                       bool is_of_disturbance, const std::vector<Rival>& rivals) {
   std::vector<std::string> evidence = {
-      fmt::format("It explains {:.1f} % of the {} that is left without it.", 100.0 * share,
-                  is_of_disturbance ? "variance of the unrecorded hub torque" : "excess residual"),
+      share > 0.0
+          ? fmt::format(
+                "It explains {:.1f} % of the {} that is left without it.", 100.0 * share,
+                is_of_disturbance ? "variance of the unrecorded hub torque" : "excess residual")
+          : "It does not reduce the residuals that are left without it.",
       fmt::format("Its signature: {}.", hypothesis.entry->speaks_for)};
   if (!hypothesis.other_names.empty()) {
     evidence.push_back(fmt::format("The same model as {}: no data distinguish them.",

@@ -300,6 +300,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Explanation& tested = is_by_filter ? selection.chosen : extended;
   made.verdict = verdict_of(tested, is_by_filter ? selection.nothing : as_filed,
                             made.search_end ? SearchState::incomplete : SearchState::complete);
+  made.is_tested_by_filter = is_by_filter;
   made.estimation_test = tested.estimation_test;
   made.validation_test = tested.validation_test;
   made.converged = std::ranges::all_of(

@@ -76,6 +76,7 @@ struct Diagnosis {
   std::vector<PredictionError> prediction_errors = {};
   ResidualTest estimation_test;  ///< of the extended arm
   ResidualTest validation_test;
+  bool is_tested_by_filter = false;  ///< these tests are of prediction errors of a Kalman filter
   bool converged = false;  ///< the fit of the extended arm
   int evaluations = 0;     ///< of the simulation in that fit
   std::vector<ChannelGain> channels;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <span>
 #include <utility>
 
 namespace flexarm::compare {
@@ -109,6 +111,45 @@ void add_tracks(const Values& points, const SweepFamily& family, const SweepRun&
   add_curves(task, points, family, tracks.index, result.curves);
   std::ranges::move(tracks.events, std::back_inserter(result.events));
   result.further_evaluations += tracks.further_evaluations;
+}
+
+/// Gives the tracks of damped poles the numbers of the undamped poles that they begin beside.
+void number_as_undamped(SweepResult& result) {
+  const auto first = std::ranges::find_if(
+      result.curves, [](const SweepCurve& curve) { return curve.family.damped; });
+  const std::span damped(first, result.curves.end());
+  const std::span undamped(result.curves.begin(), first);
+  const auto begin_of = [](const SweepCurve& curve) {
+    const auto& s = curve.s_rad_per_s.front().front();
+    return s ? std::abs(*s) : std::numeric_limits<double>::infinity();
+  };
+  std::map<int, int> numbers;  // by that of the track
+  for (const SweepCurve& pole : undamped) {
+    const SweepCurve* nearest = nullptr;
+    const auto distance = [&](const SweepCurve& curve) {
+      return std::abs(std::log(begin_of(curve) / begin_of(pole)));
+    };
+    for (const SweepCurve& curve : damped) {
+      if (numbers.contains(curve.number) || !(distance(curve) < INFINITY)) continue;
+      if (nearest == nullptr || distance(curve) < distance(*nearest)) nearest = &curve;
+    }
+    if (nearest != nullptr) numbers[nearest->number] = pole.number;
+  }
+  int next = static_cast<int>(undamped.size());
+  bool has_lowest = false;
+  for (SweepCurve& curve : damped) {
+    if (numbers.contains(curve.number)) continue;
+    const bool is_lowest = !has_lowest && begin_of(curve) < begin_of(undamped.front());
+    numbers[curve.number] = is_lowest ? 0 : ++next;
+    has_lowest = has_lowest || is_lowest;
+  }
+  for (SweepCurve& curve : damped) curve.number = numbers.at(curve.number);
+  std::ranges::sort(damped, {}, &SweepCurve::number);
+  for (SweepEvent& event : result.events) {
+    for (int* track : {&event.track, &event.other}) {
+      if (*track != kNoTrack) *track = numbers.at(*track);
+    }
+  }
 }
 
 bool has_damping(const SweepTask& task) {
@@ -247,8 +288,10 @@ SweepResult assemble(const SweepTask& task, SweepValues values, const SweepRun& 
     result.degrees_of_freedom.push_back(response::degrees_of_freedom(model.make(task.arm_of(0))));
   }
   add_poles(task, points, result.curves);
-  if (task.questions.modes && has_damping(task))
+  if (task.questions.modes && has_damping(task)) {
     add_tracks(points, {std::nullopt, true}, run, result);
+    number_as_undamped(result);
+  }
   for (const auto& sensor : task.questions.sensors) {
     const SweepFamily family{sensor, false};
     if (family.is_ordered()) {

@@ -26,9 +26,10 @@ std::string label(const SweepFamily& family);
 /// One pole or zero over the whole grid.
 struct SweepCurve {
   SweepFamily family;
-  /// Undamped poles and zeros of collocated sensors: their order, which nothing changes. Others:
-  /// the number of their track, in the order of |s| where the grid begins, then in that in which
-  /// they appear. From 1.
+  /// Undamped poles and zeros of collocated sensors: their order, which nothing changes, from 1.
+  /// Damped poles: that of the undamped pole whose |s| is nearest where the grid begins; 0 the
+  /// lowest one of a hub that is held or braked; then in the order in which they appear. Other
+  /// zeros: from 1 in the order of |s| where the grid begins, then in that in which they appear.
   int number = 1;
   /// [model][point]: zeros as in arm::ZeroSet, of conjugate poles the upper; empty where there is
   /// none. Tracks are those of the first model; of another model the root nearest to the first
@@ -48,6 +49,9 @@ struct SweepModes {
   SweepTable tip_value_m;  ///< phi(l)
 };
 
+/// In place of the number of a track.
+inline constexpr int kNoTrack = -1;
+
 /// Something that happens to a track, between two places of the last axis.
 struct SweepEvent {
   enum class Kind {
@@ -62,8 +66,8 @@ struct SweepEvent {
   };
   Kind kind = Kind::appears;
   SweepFamily family;
-  int track = 0;            ///< 0: no single one
-  int other = 0;            ///< `meet`, `part`
+  int track = kNoTrack;     ///< number of its curve; kNoTrack: no single one
+  int other = kNoTrack;     ///< `meet`, `part`
   std::size_t row = 0;      ///< index along the first of two axes; 0 for one
   double from_value = 0.0;  ///< of the last axis
   double to_value = 0.0;

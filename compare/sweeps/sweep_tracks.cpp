@@ -168,7 +168,7 @@ class GridTracker {
 
   SweepEvent event(SweepEvent::Kind kind, std::size_t row, const Between& where) const {
     const SweepAxis& axis = task_.axes.back();
-    return {kind, roots_.family, 0, 0, row, axis.at(where.from), axis.at(where.to)};
+    return {kind, roots_.family, kNoTrack, kNoTrack, row, axis.at(where.from), axis.at(where.to)};
   }
 
   void add_events(const Row& row, std::size_t i, const std::vector<std::size_t>& number,
@@ -176,13 +176,13 @@ class GridTracker {
     using Kind = SweepEvent::Kind;
     const auto number_of = [&](std::size_t track) {
       const std::size_t n = number[row.name[track]];
-      return n == kNoRoot ? 0 : static_cast<int>(n) + 1;
+      return n == kNoRoot ? kNoTrack : static_cast<int>(n) + 1;
     };
     const auto add = [&](Kind kind, std::size_t track, std::size_t other, const Between& where) {
       SweepEvent happened = event(kind, i, where);
       happened.track = number_of(track);
-      happened.other = other == kNoRoot ? 0 : number_of(other);
-      if (happened.track > 0 || happened.other > 0) events.push_back(happened);
+      happened.other = other == kNoRoot ? kNoTrack : number_of(other);
+      if (happened.track != kNoTrack || happened.other != kNoTrack) events.push_back(happened);
     };
     for (std::size_t t = 0; t < row.tracks.tracks.size(); ++t) {
       const RootTrack& track = row.tracks.tracks[t];

@@ -165,7 +165,8 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
         !filtered->by_motion || filtered->by_motion->chosen.fit.candidate.effects.empty();
     if (is_of_filed_arm) made.balance = filtered->balance;
     made.reason = fmt::format(
-        "its residuals are not noise; with what a {} shows NRMSE is {:.3g} %, with this {:.3g} %",
+        "its residuals are not noise; with what a {} shows, which is not reported, NRMSE is "
+        "{:.3g} %, with this {:.3g} %",
         filtered->predictor == PredictorKind::torque_balance ? "torque balance"
                                                              : "stochastic grey box",
         100.0 * by_filter, 100.0 * by_simulation);

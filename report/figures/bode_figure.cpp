@@ -1,5 +1,6 @@
 #include "report/figures/bode_figure.hpp"
 
+#include "report/figures/axis_units.hpp"
 #include "report/figures/meaning.hpp"
 #include "report/figures/overlay_style.hpp"
 #include "report/figures/phase.hpp"
@@ -36,12 +37,11 @@ Style root_style(bool pole) {
 /// Crosses for poles, circles for zeros, below the curves.
 void add_roots(const BodePlot& plot, Panel& panel) {
   if (plot.poles_Hz.empty() && plot.zeros_Hz.empty()) return;
-  const bool decibel = plot.magnitude == Magnitude::decibel;
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
   for (const Series& series : panel.series) {
     for (const double value : series.y) {
-      const double drawn = decibel ? value : std::log10(value);
+      const double drawn = std::log10(value);
       if (!std::isfinite(drawn)) continue;
       lowest = std::min(lowest, drawn);
       highest = std::max(highest, drawn);
@@ -57,25 +57,20 @@ void add_roots(const BodePlot& plot, Panel& panel) {
         continue;
       }
       series.x.push_back(frequency);
-      series.y.push_back(decibel ? place : std::pow(10.0, place));
+      series.y.push_back(std::pow(10.0, place));
     }
     if (!series.x.empty()) panel.series.push_back(std::move(series));
   }
 }
 
 Panel magnitude_panel(const BodePlot& plot) {
-  const bool decibel = plot.magnitude == Magnitude::decibel;
   Panel panel;
-  panel.y.label = "magnitude";
-  const std::string reference = plot.unit.starts_with("1/") ? plot.unit : "1 " + plot.unit;
-  panel.y.unit = decibel ? "dB re " + reference : plot.unit;
-  panel.y.scale = decibel ? Scale::linear : Scale::logarithmic;
+  panel.y = {.label = kMagnitude, .unit = plot.unit, .scale = Scale::logarithmic};
   panel.height = 1.8;
   for (std::size_t c = 0; c < plot.curves.size(); ++c) {
     Series series{plot.curves[c].name, plot.frequency_Hz, {}, curve_style(plot, c)};
     for (const auto& value : plot.curves[c].response) {
-      const double magnitude = std::abs(value);
-      series.y.push_back(decibel ? 20.0 * std::log10(magnitude) : magnitude);
+      series.y.push_back(std::abs(value));
     }
     panel.series.push_back(std::move(series));
   }
@@ -90,7 +85,7 @@ Panel phase_panel(const BodePlot& plot) {
     const BodeCurve& curve = plot.curves[c];
     panel.series.push_back(phase_series(
         curve.name, plot.frequency_Hz,
-        curve.phase_deg.empty() ? principal_phase_deg(curve.response) : curve.phase_deg,
+        curve.phase_deg.empty() ? continuous_phase_deg(curve.response) : curve.phase_deg,
         curve_style(plot, c)));
   }
   panel.y = phase_axis(panel.series);

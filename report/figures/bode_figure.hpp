@@ -12,10 +12,8 @@ namespace flexarm::report {
 struct BodeCurve {
   std::string name;
   std::vector<std::complex<double>> response;  ///< one a frequency; NaN where there is none
-  std::vector<double> phase_deg = {};          ///< empty: the principal value
+  std::vector<double> phase_deg = {};          ///< empty: continuous_phase_deg (phase.hpp)
 };
-
-enum class Magnitude { logarithmic, decibel };
 
 struct BodePlot {
   std::string title;
@@ -28,7 +26,6 @@ struct BodePlot {
   /// Marked along the lower edge of the magnitude, those within the frequencies.
   std::vector<double> poles_Hz = {};
   std::vector<double> zeros_Hz = {};
-  Magnitude magnitude = Magnitude::logarithmic;
 };
 
 /// Magnitude and phase over frequency, and, for two curves and more, the relative difference

@@ -5,6 +5,7 @@
 #include "report/figures/frequency_response_figure.hpp"
 #include "report/figures/mac_figure.hpp"
 #include "report/figures/mode_shape_figure.hpp"
+#include "report/figures/overlay_style.hpp"
 #include "report/figures/pole_zero_figure.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/tables/response_tables.hpp"
@@ -105,7 +106,7 @@ void add_measured_root(const measured::ModalEntry& entry,
 
 /// What was measured of the transfer function to a sensor. A pole is the same in all.
 PoleZeroSet measured_set(const std::vector<compare::MeasuredRow>& rows, const arm::Sensor& sensor) {
-  PoleZeroSet set{"measured", {}, {}};
+  PoleZeroSet set{"measured", {}, {}, true};
   for (const auto& row : rows) {
     const auto& entry = row.measured;
     if (entry.feature == measured::Feature::pole) {
@@ -164,7 +165,7 @@ NamedFigure measured_bode(const compare::MeasuredResponse& compared) {
     plot.analytical.push_back(
         {in_words(compared.models[k]),
          has_curve ? compared.curve_frequency_Hz : compared.measured.frequency_Hz,
-         has_curve ? compared.curves[k] : compared.values[k]});
+         has_curve ? compared.curves[k] : compared.values[k], formulation_colour(k)});
   }
   const std::string run = compared.run.empty() ? "" : "-" + compared.run;
   return {fmt::format("bode-measured-{}{}", arm::to_string(sensor), run),

@@ -114,7 +114,7 @@ Figure convergence_figure(const ConvergencePlot& plot) {
   double last_x = 0.0;
   for (const ConvergenceCurve& curve : plot.curves) {
     Style style = feature_style(index_of(curve.feature, features), features.size());
-    // Black is the exact formulation's, which has no error to show.
+    // The first colour is the exact formulation's, which has no error to show.
     style.colour = formulation_colour(1 + index_of(curve.formulation, formulations));
     panel.series.push_back(curve_series(curve, style));
     for (const double x : curve.degrees_of_freedom) {

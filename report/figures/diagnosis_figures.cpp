@@ -136,7 +136,7 @@ DiagnosisPlots diagnosis_plots(const Experiment& experiment, const Diagnosis& di
   const auto add = [&](std::string name, Figure figure) {
     made.plots.push_back({std::move(name), std::move(figure)});
   };
-  const bool has_causes = !diagnosis.causes.empty();
+  const bool has_extended = has_after(diagnosis);
   std::vector<std::string> left_out;
   std::size_t runs_drawn = 0;
   std::size_t responses_drawn = 0;
@@ -160,7 +160,7 @@ DiagnosisPlots diagnosis_plots(const Experiment& experiment, const Diagnosis& di
         const Overlay* overlay = overlay_of(diagnosis, r, channel.sensor);
         if (overlay == nullptr) continue;
         add(fmt::format("frf-{}-{}", run.id, overlay->sensor),
-            response_overlay(experiment, *overlay, channel, has_causes));
+            response_overlay(experiment, *overlay, channel, has_extended));
       }
     }
   }

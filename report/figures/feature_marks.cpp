@@ -1,10 +1,9 @@
 #include "report/figures/feature_marks.hpp"
 
+#include "report/figures/axis_units.hpp"
 #include "report/figures/equal_axes.hpp"
 #include "report/figures/figure_layout.hpp"
 #include "report/figures/meaning.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +29,7 @@ void add_feature_marks(Panel& panel, std::span<const measured::SpectralFeature> 
   for (const auto kind : {measured::Feature::pole, measured::Feature::zero}) {
     const bool peak = kind == measured::Feature::pole;
     Series series{
-        peak ? "peak [Hz]" : "minimum [Hz]",
+        peak ? "peak" : "minimum",
         {},
         {},
         marker_style(peak ? kPoleColour : kZeroColour, peak ? Marker::cross : Marker::circle, 0.8)};
@@ -45,8 +44,9 @@ void add_feature_marks(Panel& panel, std::span<const measured::SpectralFeature> 
   for (const auto& feature : sorted) {
     panel.annotations.push_back(
         {feature.line_Hz, std::pow(10.0, feature.level_dB / dB_per_decade),
-         fmt::format("{:#.4g}", feature.frequency_Hz),
-         feature.feature == measured::Feature::pole ? TextPlace::above : TextPlace::below});
+         frequency_text(feature.frequency_Hz),
+         feature.feature == measured::Feature::pole ? TextPlace::above : TextPlace::below,
+         feature.frequency_Hz});
   }
 }
 

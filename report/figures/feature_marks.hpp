@@ -11,8 +11,8 @@ namespace flexarm::report {
 /// What a panel shows of the power that features are levels of.
 enum class FeatureLevel { power, amplitude };
 
-/// Crosses for peaks, circles for valleys, on the line where each was found; the frequency [Hz] is
-/// written above or below, of the most prominent ones first (`place_labels`).
+/// Crosses for peaks, circles for valleys, on the line where each was found; the frequency is
+/// written above or below, in the unit of the axis, of the most prominent ones first (`place_labels`).
 void add_feature_marks(Panel& panel, std::span<const measured::SpectralFeature> features,
                        FeatureLevel level);
 

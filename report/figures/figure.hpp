@@ -84,6 +84,7 @@ struct Annotation {
   double y = 0.0;
   std::string text = {};
   TextPlace place = TextPlace::upper_right;
+  std::optional<double> frequency_Hz = {};  ///< of a text that is a frequency in the axis' unit
 };
 
 struct Panel {

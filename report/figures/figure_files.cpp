@@ -54,6 +54,7 @@ std::string_view to_string(FigureFormat format) {
 }
 
 Figure with_options(Figure figure, const FigureOptions& options) {
+  figure = in_units(std::move(figure), options.magnitude, options.frequency);
   figure.font = options.font;
   figure.font_size_px = options.font_size_px;
   if (options.size) {

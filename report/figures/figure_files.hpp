@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measured/files/atomic_file.hpp"
+#include "report/figures/axis_units.hpp"
 #include "report/figures/figure.hpp"
 #include "report/figures/gnuplot_script.hpp"
 
@@ -22,12 +23,14 @@ struct FigureOptions {
   std::optional<FigureSize> size = {};  ///< empty: each figure's own
   std::string font = kSansSerif;        ///< family; PDF embeds it, PNG has it drawn
   double font_size_px = kFontSize_px;
+  MagnitudeScale magnitude = MagnitudeScale::absolute;  ///< of all Bode diagrams
+  FrequencyUnit frequency = FrequencyUnit::hertz;       ///< of all axes of frequencies
 };
 
 /// "svg".
 std::string_view to_string(FigureFormat format);
 
-/// The figure with the options' font and size, enlarged where a panel would be less than four lines
+/// The figure with the options' units, font and size, enlarged where a panel would be less than four lines
 /// of text high or fourteen characters wide.
 Figure with_options(Figure figure, const FigureOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include "measured/spectra/frequency_response.hpp"
 #include "measured/spectra/robust.hpp"
+#include "report/figures/axis_units.hpp"
 #include "report/figures/feature_marks.hpp"
 #include "report/figures/figure_layout.hpp"
 #include "report/figures/meaning.hpp"
@@ -42,16 +43,17 @@ constexpr double kCoherenceRoom = 0.04;
 constexpr double kLeastPower = 1e-3;  // of the torque, relative to where it has its full power
 constexpr double kFullPower = 0.9;    // quantile of the powers of its lines
 constexpr std::size_t kLinesBeside = 5;
+constexpr double kPeakProminence_dB = 6.0;
+constexpr double kSamePeak = 0.05;  // relative distance of the lines of one peak
 constexpr const char* kMeasured = "measured";
 constexpr const char* kInterval = "95 % interval";
 
 /// A model's curve, broken so that what lies below shows where they agree: the arm file, then the
 /// extended arm.
-Style model_style(std::size_t i) {
+Style model_style(const std::vector<AnalyticalResponse>& models, std::size_t i) {
   constexpr std::array kLines{Line::dotted, Line::dashed};
-  constexpr std::array<int, 3> kModelColours{kBaselineColour, kIdentifiedColour, purple};
   Style style;
-  style.colour = kModelColours[i % kModelColours.size()];
+  style.colour = models[i].colour.value_or(i == 0 ? kBaselineColour : kIdentifiedColour);
   style.line = kLines[i % kLines.size()];
   style.line_width_px = 2.0;
   return style;
@@ -126,7 +128,7 @@ std::vector<ModelCurve> model_curves(const MeasuredResponse& measured,
   }
   for (std::size_t i = 0; i < plot.analytical.size(); ++i) {
     const auto& model = plot.analytical[i];
-    ModelCurve curve{model.name, {}, {}, model_style(i)};
+    ModelCurve curve{model.name, {}, {}, model_style(plot.analytical, i)};
     std::size_t k = 0;
     for (const Range& band : bands) {
       while (k < model.frequency_Hz.size() && model.frequency_Hz[k] < band.from) ++k;
@@ -169,7 +171,7 @@ double largest_of(const std::vector<double>& values) {
 Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& interval,
                       const std::vector<ModelCurve>& models) {
   Panel panel;
-  panel.y = {.label = "magnitude",
+  panel.y = {.label = kMagnitude,
              .unit = unit_text(response_unit(m.sensor)),
              .scale = Scale::logarithmic};
   panel.height = 1.8;
@@ -204,24 +206,39 @@ Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& inte
   return panel;
 }
 
-Series measured_phase(const MeasuredResponse& m, std::vector<double> phase,
-                      const std::vector<double>& interval) {
+/// Continuous over the lines whose phase is known, by whole turns near the model's.
+std::vector<double> measured_phase_deg(const MeasuredResponse& m,
+                                       const std::vector<double>& interval,
+                                       const PhaseCurve* model) {
+  auto response = m.response;
   for (std::size_t i = 0; i < interval.size(); ++i) {
-    if (interval[i] > kMostPhase_rad) phase[i] = kNotDrawn;
+    if (interval[i] > kMostPhase_rad) response[i] = {kNotDrawn, kNotDrawn};
   }
-  const Series curve = measured_curve(kMeasured, m.frequency_Hz, phase);
-  return phase_series(kMeasured, curve.x, curve.y, curve.style);
+  PhaseCurve phase{m.frequency_Hz, continuous_phase_deg(response)};
+  if (model != nullptr) turn_towards(*model, phase);
+  return std::move(phase.phase_deg);
 }
 
 Panel phase_panel(const MeasuredResponse& m, const std::vector<double>& interval,
                   const std::vector<ModelCurve>& models) {
   Panel panel;
   panel.height = 1.1;
-  const auto phase = principal_phase_deg(m.response);
-  panel.series.push_back(measured_phase(m, phase, interval));
+  std::vector<PhaseCurve> of_models;
   for (const auto& model : models) {
-    panel.series.push_back(phase_series(model.name, model.frequency_Hz,
-                                        principal_phase_deg(model.response), model.style));
+    of_models.push_back({model.frequency_Hz, continuous_phase_deg(model.response)});
+    turn_towards(of_models.front(), of_models.back());
+  }
+  auto phase = measured_phase_deg(m, interval, of_models.empty() ? nullptr : &of_models.front());
+  const double turn_deg = to_principal_turn_deg(phase);
+  for (double& value : phase) value += turn_deg;
+  for (PhaseCurve& of_model : of_models) {
+    for (double& value : of_model.phase_deg) value += turn_deg;
+  }
+  const Series curve = measured_curve(kMeasured, m.frequency_Hz, phase);
+  panel.series.push_back(phase_series(kMeasured, curve.x, curve.y, curve.style));
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    panel.series.push_back(phase_series(models[i].name, of_models[i].frequency_Hz,
+                                        of_models[i].phase_deg, models[i].style));
   }
   panel.y = phase_axis(panel.series);
   if (!interval.empty()) {
@@ -276,6 +293,31 @@ void drop_unexcited(const std::vector<double>& input_autopower, MeasuredResponse
     m.response[k] = {kNotDrawn, kNotDrawn};
     m.relative_std[k] = kNotDrawn;
   }
+}
+
+/// The features, and the highest peak of the response if it is none of them.
+std::vector<measured::SpectralFeature> with_highest_peak(
+    std::vector<measured::SpectralFeature> features, const MeasuredResponse& m,
+    const std::vector<double>& interval) {
+  std::vector<double> power;
+  for (std::size_t k = 0; k < m.response.size(); ++k) {
+    const bool is_known = interval.empty() || interval[k] < 1.0;
+    power.push_back(is_known ? std::norm(m.response[k]) : kNotDrawn);
+  }
+  const std::vector<double> exact(power.size(), 0.0);
+  measured::PeakSettings settings;
+  settings.least_prominence_dB = kPeakProminence_dB;
+  settings.most_damping_ratio = 1.0;
+  auto found = measured::peaks_and_valleys(m.frequency_Hz, power, exact, settings);
+  std::erase_if(found, [](const auto& one) { return one.feature != measured::Feature::pole; });
+  const auto highest = std::ranges::max_element(found, {}, &measured::SpectralFeature::level_dB);
+  if (highest == found.end()) return features;
+  const auto is_same = [&](const measured::SpectralFeature& one) {
+    return one.feature == measured::Feature::pole &&
+           std::abs(one.line_Hz - highest->line_Hz) <= kSamePeak * highest->line_Hz;
+  };
+  if (std::ranges::none_of(features, is_same)) features.push_back(*highest);
+  return features;
 }
 
 /// Without line 0, which a logarithmic axis has not.
@@ -367,7 +409,8 @@ Figure frequency_response_figure(const MeasuredResponse& measured,
   for (Panel& panel : stack.panels) {
     add_frequency_lines(panel, poles_Hz, "analytical pole", analytical_pole_style());
   }
-  add_feature_marks(stack.panels.front(), plot.features, FeatureLevel::amplitude);
+  add_feature_marks(stack.panels.front(), with_highest_peak(plot.features, shown, interval),
+                    FeatureLevel::amplitude);
   figure.stacks.push_back(std::move(stack));
   return figure;
 }

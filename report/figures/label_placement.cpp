@@ -3,6 +3,7 @@
 #include "report/figures/thinned_series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -13,7 +14,8 @@ namespace flexarm::report {
 namespace {
 
 constexpr double kRow = 1.15;  // text heights
-constexpr int kMostRows = 5;
+/// Away from the point. Beside and beyond it, below 0, only where there is no other place.
+constexpr std::array kRows{0, 1, 2, 3, 4, -1, -2};
 constexpr double kAside_px = 6.0;
 constexpr double kLineStep_px = 4.0;
 constexpr double kMostLineSteps = 500.0;
@@ -106,8 +108,11 @@ std::optional<Annotation> placed(const Annotation& label, const Map& map,
   const Pixel at = map.pixel(label.x, label.y);
   std::optional<Annotation> best;
   std::ptrdiff_t fewest = 0;
-  for (int row = 0; row < kMostRows; ++row) {
+  for (const int row : kRows) {
+    const bool is_beside = row < 0;
+    if (is_beside && best) break;
     for (const double side : {0.0, 1.0, -1.0}) {
+      if (is_beside && side == 0.0) continue;
       const double up_px = direction * row * map.row_px();
       TextBox text = moved(start, side * aside_px, up_px);
       const double inwards = inwards_px(text, map.box);

@@ -24,7 +24,7 @@ struct MacClass {
 };
 
 std::array<MacClass, 4> mac_classes() {
-  return {{{0.9, {"0.9 to 1", {}, {}, marker_style(blue, Marker::filled_square, 2.2)}},
+  return {{{0.9, {"0.9 to 1", {}, {}, marker_style(green, Marker::filled_square, 2.2)}},
            {0.5, {"0.5 to 0.9", {}, {}, marker_style(sky_blue, Marker::filled_square, 1.7)}},
            {0.1, {"0.1 to 0.5", {}, {}, marker_style(orange, Marker::filled_square, 1.2)}},
            {0.0, {"below 0.1", {}, {}, marker_style(grey, Marker::filled_square, 0.7)}}}};

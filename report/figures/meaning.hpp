@@ -4,7 +4,8 @@
 
 namespace flexarm::report {
 
-/// One colour for each meaning, in all figures. Formulations have others (overlay_style.hpp).
+/// One colour for each meaning, in all figures: black, blue and vermillion have no other.
+/// Formulations have others (overlay_style.hpp).
 inline constexpr int kMeasuredColour = black;
 inline constexpr int kBaselineColour = blue;          ///< the arm file, before a diagnosis
 inline constexpr int kIdentifiedColour = vermillion;  ///< the extended arm, a fit

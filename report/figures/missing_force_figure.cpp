@@ -1,6 +1,7 @@
 #include "report/figures/missing_force_figure.hpp"
 
 #include "report/figures/equal_axes.hpp"
+#include "report/figures/meaning.hpp"
 #include "report/tables/missing_force_table.hpp"
 #include "report/words.hpp"
 
@@ -29,8 +30,8 @@ Panel force_spectrum_panel(const diagnose::PortShare& port, const diagnose::Forc
   Series interval{"± 2 standard errors",
                   {},
                   {},
-                  {.colour = blue, .tint = 0.7, .line = Line::none, .filled = true}};
-  Series value{"missing force", {}, {}, {.colour = blue}};
+                  {.colour = kIdentifiedColour, .tint = 0.7, .line = Line::none, .filled = true}};
+  Series value{"missing force", {}, {}, {.colour = kIdentifiedColour}};
   double largest = 0.0;
   double above_Hz = 0.0;
   for (const diagnose::ForceBand& band : size.spectrum) {
@@ -62,24 +63,27 @@ Panel force_spectrum_panel(const diagnose::PortShare& port, const diagnose::Forc
 Panel shares_panel(const diagnose::MissingForce& force) {
   const auto count = static_cast<double>(force.ports.size());
   Panel panel{.title = "by port",
-              .x = Axis{.label = "explained share of the excess residual", .unit = "%"},
+              .x = Axis{.label = "explained share of the excess residual",
+                        .unit = "%",
+                        .minimum = 0.0,
+                        .maximum = 100.0},
               .y = {.minimum = 0.0, .maximum = count + 1.0}};
   Series bars{"± 2 standard errors", {}, {}, {.colour = grey, .line_width_px = 1.5}};
   std::array<Series, 2> shares;
-  shares[0] = {"port stated", {}, {}, marker_style(vermillion, Marker::filled_square, 1.0)};
-  shares[1] = {"port not stated", {}, {}, marker_style(black, Marker::circle, 1.0)};
+  shares[0] = {"port stated", {}, {}, marker_style(kIdentifiedColour, Marker::filled_square, 1.0)};
+  shares[1] = {"port not stated", {}, {}, marker_style(grey, Marker::circle, 1.0)};
   for (std::size_t i = 0; i < force.ports.size(); ++i) {
     const diagnose::PortShare& port = force.ports[i];
     const double y = count - static_cast<double>(i);
     panel.y.ticks.push_back({y, in_words(port_name(port))});
     for (const double side : {-diagnose::kDistance, diagnose::kDistance}) {
-      bars.x.push_back(100.0 * (port.share + side * port.std_error));
+      bars.x.push_back(explained_percent(port.share + side * port.std_error));
       bars.y.push_back(y);
     }
     bars.x.push_back(bars.x.back());
     bars.y.push_back(kNotDrawn);
     Series& own = shares[i < force.stated ? 0 : 1];
-    own.x.push_back(100.0 * port.share);
+    own.x.push_back(explained_percent(port.share));
     own.y.push_back(y);
   }
   constexpr double kLeast_percent = 100.0 * diagnose::kLeastPortShare;

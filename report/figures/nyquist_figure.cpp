@@ -23,7 +23,7 @@ constexpr int kNyquistHeight_px = 660;
 constexpr double kLocusWidth = 2.3;  // relative to a circle's, so that it fills the height
 constexpr std::size_t kMostCircles = 4;
 constexpr std::size_t kCirclesInAColumn = 2;
-constexpr double kRoomAroundCircle = 0.66;  // half side over diameter
+constexpr double kRoomAroundCircle = 1.12;
 constexpr double kRoomAroundLocus = 1.08;
 constexpr int kMostDecades = 4;
 
@@ -33,9 +33,12 @@ bool is_value_shown(const Complex& value) {
 
 constexpr const char* kPoleName = "pole frequency";
 constexpr const char* kHalfPowerName = "half-power points";
-constexpr double kTextLeft = 0.3;  // of the centre, in diameters
+constexpr const char* kNegativeName = "negative frequencies";
+constexpr const char* kMinusOneName = "−1";
 const Style kLocus{.colour = kBaselineColour, .line_width_px = 1.6};
 const Style kAtPole = marker_style(kPoleColour, Marker::disc, 0.9);
+const Style kNegative{.colour = kBaselineColour, .tint = 0.4, .line = Line::dashed};
+const Style kMinusOne = marker_style(black, Marker::plus, 1.2);
 const Style kAtHalfPower = marker_style(kPoleColour, Marker::circle, 0.9);
 
 /// log10(1 + |G|/g0), with the angle of G.
@@ -71,7 +74,8 @@ PanelStack whole_locus(const NyquistPlot& plot) {
   const double quartile = sizes[sizes.size() / 4];
   const double largest = *std::ranges::max_element(sizes);
   const Compressed compressed{std::max(quartile, largest * std::pow(10.0, -kMostDecades))};
-  const double half_side = kRoomAroundLocus * compressed.modulus(largest);
+  const double shown = plot.marks.minus_one ? std::max(largest, 1.0) : largest;
+  const double half_side = kRoomAroundLocus * compressed.modulus(shown);
 
   Panel panel;
   panel.title = "all frequencies, modulus compressed";
@@ -79,7 +83,7 @@ PanelStack whole_locus(const NyquistPlot& plot) {
     Axis made{.label = label, .unit = plot.unit, .minimum = -half_side, .maximum = half_side};
     made.ticks = {{0.0, "0"}};
     for (int exponent = static_cast<int>(std::ceil(std::log10(compressed.g0)));
-         std::pow(10.0, exponent) <= largest * kRoomAroundLocus; ++exponent) {
+         std::pow(10.0, exponent) <= shown * kRoomAroundLocus; ++exponent) {
       const double size = std::pow(10.0, exponent);
       const std::string text = decade_label(exponent, exponent >= 0 && exponent <= 4);
       made.ticks.push_back({compressed.modulus(size), text});
@@ -100,7 +104,15 @@ PanelStack whole_locus(const NyquistPlot& plot) {
     locus.x.push_back(drawn.real());
     locus.y.push_back(drawn.imag());
   }
+  if (plot.marks.negative_frequencies) {
+    Series negative{kNegativeName, locus.x, locus.y, kNegative};
+    for (double& imaginary : negative.y) imaginary = -imaginary;
+    panel.series.push_back(std::move(negative));
+  }
   panel.series.push_back(std::move(locus));
+  if (plot.marks.minus_one) {
+    panel.series.push_back({kMinusOneName, {compressed(-1.0).real()}, {0.0}, kMinusOne});
+  }
   Series poles{kPoleName, {}, {}, kAtPole};
   for (const auto& circle : plot.circles) {
     const Complex drawn = compressed(circle.at_pole);
@@ -112,16 +124,22 @@ PanelStack whole_locus(const NyquistPlot& plot) {
 }
 
 Panel circle_panel(const NyquistPlot& plot, const NyquistCircle& circle) {
-  const Complex centre = (circle.below + circle.above) / 2.0;
-  const double diameter = std::abs(circle.above - circle.below);
-  const EqualAxes axes{"G", plot.unit, centre, kRoomAroundCircle * diameter};
+  const std::array half_power = {circle.below, circle.above};
+  Complex low = circle.at_pole;
+  Complex high = circle.at_pole;
+  const auto enclose = [&](const Complex& value) {
+    low = {std::fmin(low.real(), value.real()), std::fmin(low.imag(), value.imag())};
+    high = {std::fmax(high.real(), value.real()), std::fmax(high.imag(), value.imag())};
+  };
+  std::ranges::for_each(circle.values, enclose);
+  std::ranges::for_each(half_power, enclose);
+  const Complex size = high - low;
+  const EqualAxes axes{"G", plot.unit, (low + high) / 2.0,
+                       kRoomAroundCircle * std::max(size.real(), size.imag()) / 2.0};
   Panel panel = axes.panel(circle.label);
   panel.series.push_back(complex_series("response", circle.values, kLocus));
   panel.series.push_back(complex_series(kPoleName, {&circle.at_pole, 1}, kAtPole));
-  const std::array half_power = {circle.below, circle.above};
   panel.series.push_back(complex_series(kHalfPowerName, half_power, kAtHalfPower));
-  const Complex text = centre - kTextLeft * diameter;
-  panel.annotations.push_back({text.real(), text.imag(), circle.remark});
   return panel;
 }
 
@@ -142,6 +160,8 @@ Figure nyquist_figure(const NyquistPlot& plot) {
   auto& last = figure.stacks.back();
   last.blank_panels = static_cast<int>(rows - last.panels.size());
   figure.legend = {{"response", kLocus}, {kPoleName, kAtPole}, {kHalfPowerName, kAtHalfPower}};
+  if (plot.marks.negative_frequencies) figure.legend.push_back({kNegativeName, kNegative});
+  if (plot.marks.minus_one) figure.legend.push_back({kMinusOneName, kMinusOne});
   return figure;
 }
 

@@ -26,7 +26,10 @@ using diagnose::Overlay;
 
 constexpr int kSignal_px = 175;
 constexpr int kResidual_px = 150;  // with its note
+constexpr int kTorque_px = 110;
 constexpr int kOverlayFurniture_px = 110;
+constexpr int kOverlayWidth_px = 1000;
+constexpr int kLensWidth_px = 550;
 
 /// A predicted signal of a run, with its NRMSE.
 struct PredictedSignal {
@@ -103,60 +106,81 @@ Panel residual_panel(const PredictedSignal& signal, const Stretch& stretch,
   const std::string name = extended ? kExtendedName : kBaselineName;
   Panel panel{.y = {.label = "residual", .unit = signal.unit(), .robust = true},
               .height = static_cast<double>(kResidual_px) / kSignal_px};
-  panel.note = fmt::format("residual of the {}, NRMSE of the run {:.3g} % (noise floor {:.3g} %)",
-                           name, 100.0 * (extended ? signal.error.after : signal.error.before),
-                           100.0 * signal.error.noise_floor);
+  panel.note =
+      fmt::format("{}, NRMSE of the run {:.3g} % (noise floor {:.3g} %)", name,
+                  100.0 * (extended ? signal.error.after : signal.error.before),
+                  100.0 * signal.error.noise_floor);
   panel.series.push_back(
       {name, time_s, std::move(residual), extended ? kExtendedSignal : kBaselineSignal});
   return panel;
 }
 
 void add_panels(const PredictedSignal& signal, const Stretch& stretch,
-                const std::vector<double>& time_s, bool has_causes, PanelStack& stack) {
+                const std::vector<double>& time_s, bool has_extended, PanelStack& stack) {
   const Overlay& overlay = *signal.overlay;
   Panel panel{.y = {.label = in_words(overlay.sensor), .unit = signal.unit(), .robust = true}};
   panel.series.push_back({"measured", time_s, stretch.of(overlay.measured), kMeasuredSignal});
   panel.series.push_back({kBaselineName, time_s, stretch.of(overlay.before), kBaselineSignal});
-  if (has_causes) {
+  if (has_extended) {
     panel.series.push_back({kExtendedName, time_s, stretch.of(overlay.after), kExtendedSignal});
   }
   stack.panels.push_back(std::move(panel));
   stack.panels.push_back(residual_panel(signal, stretch, time_s, false));
-  if (has_causes) stack.panels.push_back(residual_panel(signal, stretch, time_s, true));
+  if (has_extended) stack.panels.push_back(residual_panel(signal, stretch, time_s, true));
+}
+
+/// The signals and the torque of a part of a run.
+PanelStack stack_of(const measured::TimeRecord& record, const std::vector<PredictedSignal>& signals,
+                    const Stretch& stretch, bool has_extended) {
+  PanelStack stack{.x = {.label = "time", .unit = "s"}};
+  const std::vector<double> time_s = stretch.of(record.time_s);
+  for (const PredictedSignal& signal : signals) {
+    add_panels(signal, stretch, time_s, has_extended, stack);
+  }
+  Panel torque{.y = {.label = "torque", .unit = "N m", .robust = true},
+               .height = static_cast<double>(kTorque_px) / kSignal_px};
+  torque.series.push_back(
+      {"torque", time_s, stretch.of(record.torque_N_m), {.colour = kMeasuredColour}});
+  torque.series.back().style.line_width_px = 1.0;
+  stack.panels.push_back(std::move(torque));
+  return stack;
 }
 
 }  // namespace
 
+bool has_after(const Diagnosis& diagnosis) {
+  return !diagnosis.causes.empty() || diagnosis.empirical_law || !diagnosis.refitted.empty();
+}
+
 std::optional<Figure> overlay_figure(const Experiment& experiment, const Diagnosis& diagnosis,
                                      std::size_t run) {
   const auto& [stated, data] = experiment.runs[run];
-  const auto& time_s = std::get<measured::TimeRecord>(data).time_s;
+  const auto& record = std::get<measured::TimeRecord>(data);
+  const auto& time_s = record.time_s;
   const auto signals = drawn_signals(diagnosis, run, stated.id);
   if (signals.empty()) return std::nullopt;
   std::size_t samples = time_s.size();
   for (const PredictedSignal& signal : signals) {
     samples = std::min(samples, signal.overlay->measured.size());
   }
-  const std::size_t from = worst_stretch(signals, samples);
-  const Stretch stretch{from, std::min(samples, from + kDrawnSamples)};
-  const bool has_causes = !diagnosis.causes.empty();
+  const bool has_extended = has_after(diagnosis);
   Figure figure;
-  figure.title = stretch.to - stretch.from == samples
-                     ? stated.id
-                     : fmt::format(
-                           "{}: {:.4g} to {:.4g} s of {:.4g} to {:.4g} s, where residuals "
-                           "are largest",
-                           stated.id, time_s[stretch.from], time_s[stretch.to - 1], time_s.front(),
-                           time_s.back());
-  figure.width_px = 1000;
-  figure.height_px = kOverlayFurniture_px + static_cast<int>(signals.size()) *
-                                                (kSignal_px + kResidual_px * (has_causes ? 2 : 1));
-  PanelStack stack{.x = {.label = "time", .unit = "s"}};
-  const std::vector<double> drawn_s = stretch.of(time_s);
-  for (const PredictedSignal& signal : signals) {
-    add_panels(signal, stretch, drawn_s, has_causes, stack);
+  figure.title = stated.id;
+  figure.width_px = kOverlayWidth_px;
+  figure.height_px = kOverlayFurniture_px + kTorque_px +
+                     static_cast<int>(signals.size()) *
+                         (kSignal_px + kResidual_px * (has_extended ? 2 : 1));
+  figure.stacks.push_back(stack_of(record, signals, {0, samples}, has_extended));
+  if (samples <= kDrawnSamples) return figure;
+  const std::size_t from = worst_stretch(signals, samples);
+  const Stretch lens{from, from + kDrawnSamples};
+  figure.title += fmt::format("; on the right {:.4g} to {:.4g} s, where residuals are largest",
+                              time_s[lens.from], time_s[lens.to - 1]);
+  figure.width_px += kLensWidth_px;
+  figure.stacks.push_back(stack_of(record, signals, lens, has_extended));
+  for (Panel& panel : figure.stacks.back().panels) {
+    if (!panel.note.empty()) panel.note = " ";  // they are of the run; as much room as on the left
   }
-  figure.stacks.push_back(std::move(stack));
   return figure;
 }
 

@@ -6,8 +6,7 @@
 namespace flexarm::report {
 
 int formulation_colour(std::size_t i) {
-  constexpr std::array<int, 7> kFormulations{black,    green, purple,    orange,
-                                             sky_blue, blue,  vermillion};
+  constexpr std::array<int, 5> kFormulations{green, purple, orange, sky_blue, grey};
   return kFormulations[i % kFormulations.size()];
 }
 
@@ -17,7 +16,7 @@ Style overlay_style(std::size_t i) {
   style.colour = formulation_colour(i);
   style.line = kLines[std::min(i, kLines.size() - 1)];
   style.line_width_px = i == 0 ? 5.0 : 1.8;
-  style.tint = i == 0 ? 0.7 : 0.0;
+  style.tint = i == 0 ? 0.6 : 0.0;
   return style;
 }
 

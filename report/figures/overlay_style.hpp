@@ -6,8 +6,8 @@
 
 namespace flexarm::report {
 
-/// The colour of the i-th formulation in every figure: black for the first, the reference (drawn
-/// pale, where a measurement is black).
+/// The colour of the i-th of several formulations, or of other curves without a meaning of their
+/// own (meaning.hpp), in every figure.
 int formulation_colour(std::size_t i);
 
 /// The line of the i-th of several curves that may coincide: a broad pale band below, a full line

@@ -1,6 +1,7 @@
 #include "report/figures/pole_zero_figure.hpp"
 
 #include "report/figures/logarithmic_ticks.hpp"
+#include "report/figures/meaning.hpp"
 #include "report/figures/overlay_style.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,8 @@ constexpr double kPlaneMargin = 1.08;      // of the s-plane's half side
 constexpr double kLargestPlain = 1e5;      // rad/s: ticks read 1000 rather than 10³ below it
 constexpr double kLargestMarker = 1.4;     // relative to gnuplot's standard
 constexpr double kMarkerStep = 0.45;       // by which each further formulation's is smaller
-constexpr double kSmallestMarker = 0.3;
+constexpr double kSmallestMarker = 0.5;
+constexpr double kMeasuredMarker = 1.1;
 constexpr double kDecadeRoom = 0.04;  // of the decades of |s|, so that no marker is cut
 constexpr double kLeastRoom = 1.1;
 constexpr double kOffRow = 0.12;  // poles above their row's line, zeros below: none hides another
@@ -36,10 +38,14 @@ bool is_nearer_imaginary_axis(const Root& s) {
   return std::abs(s.imag()) >= std::abs(s.real());
 }
 
-/// Crosses for poles, circles for zeros; smaller for each further formulation.
-Style root_style(bool pole, std::size_t formulation, double size) {
+int colour_of(const PoleZeroPlot& plot, std::size_t set) {
+  return plot.sets[set].is_measured ? kMeasuredColour : formulation_colour(set);
+}
+
+/// Crosses for poles, circles for zeros.
+Style root_style(bool pole, int colour, double size) {
   Style style;
-  style.colour = formulation_colour(formulation);
+  style.colour = colour;
   style.line = Line::none;
   style.marker = pole ? Marker::cross : Marker::circle;
   style.marker_size = size;
@@ -99,9 +105,13 @@ PanelStack plane(const PoleZeroPlot& plot, double smallest, double largest) {
   panel.series.push_back({"", {-half_side, half_side}, {0.0, 0.0}, axis_line});
   panel.series.push_back({"", {0.0, 0.0}, {-half_side, half_side}, axis_line});
   for_each_list(plot, [&](std::size_t set, bool pole, const std::vector<Root>& roots) {
-    const double size =
-        std::max(kSmallestMarker, kLargestMarker - kMarkerStep * static_cast<double>(set));
-    Series series{series_name(plot.sets[set], pole), {}, {}, root_style(pole, set, size)};
+    // Smaller for each further formulation.
+    const double size = plot.sets[set].is_measured
+                            ? kMeasuredMarker
+                            : std::max(kSmallestMarker,
+                                       kLargestMarker - kMarkerStep * static_cast<double>(set));
+    Series series{
+        series_name(plot.sets[set], pole), {}, {}, root_style(pole, colour_of(plot, set), size)};
     for (const Root& s : roots) {
       if (!is_root_shown(s)) continue;
       series.x.push_back(scale(s.real()));
@@ -121,7 +131,8 @@ Panel rows(const PoleZeroPlot& plot, bool imaginary) {
   for_each_list(plot, [&](std::size_t set, bool pole, const std::vector<Root>& roots) {
     const double row = -static_cast<double>(set);
     if (pole) panel.y.ticks.push_back({row, plot.sets[set].formulation});
-    Series series{series_name(plot.sets[set], pole), {}, {}, root_style(pole, set, 0.8)};
+    Series series{
+        series_name(plot.sets[set], pole), {}, {}, root_style(pole, colour_of(plot, set), 0.8)};
     for (const Root& s : roots) {
       if (!is_root_shown(s) || is_nearer_imaginary_axis(s) != imaginary) continue;
       series.x.push_back(std::abs(s));
@@ -178,11 +189,11 @@ Figure pole_zero_figure(const PoleZeroPlot& plot) {
     const bool is_there = std::ranges::any_of(plot.sets, [&](const PoleZeroSet& set) {
       return std::ranges::any_of(pole ? set.poles_rad_per_s : set.zeros_rad_per_s, is_root_shown);
     });
-    if (is_there) figure.legend.push_back({pole ? "pole" : "zero", root_style(pole, 0, 1.0)});
+    if (is_there) figure.legend.push_back({pole ? "pole" : "zero", root_style(pole, grey, 1.0)});
   }
   for (std::size_t i = 0; i < plot.sets.size(); ++i) {
     Style style;
-    style.colour = formulation_colour(i);
+    style.colour = colour_of(plot, i);
     style.line_width_px = 3.0;
     figure.legend.push_back({plot.sets[i].formulation, style});
   }

@@ -15,6 +15,7 @@ struct PoleZeroSet {
   std::string formulation;
   std::vector<std::complex<double>> poles_rad_per_s;
   std::vector<std::complex<double>> zeros_rad_per_s;
+  bool is_measured = false;  ///< drawn on top, in the colour of measurements
 };
 
 struct PoleZeroPlot {

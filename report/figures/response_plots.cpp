@@ -32,7 +32,6 @@ NamedFigure bode(const std::string& formulation, const response::ResponseStudy& 
     plot.curves.push_back({"state space", study.state_space_response->values[k],
                            study.state_space_response->phase_deg[k]});
   }
-  plot.magnitude = Magnitude::decibel;
   plot.poles_Hz.push_back(study.damped_poles.lowest.first_rad_per_s.imag() / kTwoPi);
   for (const auto& pole : study.damped_poles.flexible) {
     plot.poles_Hz.push_back(pole.first_rad_per_s.imag() / kTwoPi);
@@ -66,19 +65,21 @@ std::vector<std::complex<double>> values_in_order(const response::ResponseStudy&
   return values;
 }
 
-NamedFigure nyquist(const response::ResponseStudy& study, std::size_t k) {
+NamedFigure nyquist(const response::ResponseStudy& study, std::size_t k,
+                    const NyquistMarks& marks) {
   const auto& sensor = study.response.sensors[k];
   NyquistPlot plot;
+  plot.marks = marks;
   plot.title = "Torque to " + sensor_label(sensor);
   plot.unit = unit_text(response_unit(sensor));
   plot.response = values_in_order(study, k);
   for (const auto& resonance : study.resonances[k]) {
     const double damping_ratio =
         -resonance.pole_rad_per_s.real() / std::abs(resonance.pole_rad_per_s);
-    plot.circles.push_back({fmt::format("pole {}: {:.5g} Hz", resonance.order,
-                                        resonance.pole_rad_per_s.imag() / kTwoPi),
-                            fmt::format("ζ = {:.3g}", damping_ratio), resonance.values,
-                            resonance.at_pole, resonance.below, resonance.above});
+    plot.circles.push_back({fmt::format("pole {}: {:.5g} Hz, ζ = {:.3g}", resonance.order,
+                                        resonance.pole_rad_per_s.imag() / kTwoPi, damping_ratio),
+                            resonance.values, resonance.at_pole, resonance.below,
+                            resonance.above});
   }
   return {fmt::format("nyquist-{}", arm::to_string(sensor)), nyquist_figure(plot)};
 }
@@ -86,13 +87,14 @@ NamedFigure nyquist(const response::ResponseStudy& study, std::size_t k) {
 }  // namespace
 
 std::vector<NamedFigure> response_plots(const std::string& formulation,
-                                        const response::ResponseStudy& study) {
+                                        const response::ResponseStudy& study,
+                                        const NyquistMarks& marks) {
   std::vector<NamedFigure> plots;
   for (std::size_t k = 0; k < study.response.sensors.size(); ++k) {
     const auto& values = study.response.values[k];
     if (std::ranges::all_of(values, [](const auto value) { return value == 0.0; })) continue;
     plots.push_back(bode(formulation, study, k));
-    if (!study.resonances[k].empty()) plots.push_back(nyquist(study, k));
+    if (!study.resonances[k].empty()) plots.push_back(nyquist(study, k, marks));
   }
   return plots;
 }

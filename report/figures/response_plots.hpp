@@ -1,6 +1,7 @@
 #pragma once
 
 #include "report/figures/figure.hpp"
+#include "report/figures/nyquist_figure.hpp"
 #include "response/frequency/response_study.hpp"
 
 #include <string>
@@ -12,6 +13,7 @@ namespace flexarm::report {
 /// `nyquist-SENSOR` where a damped pole lies in the range. `formulation` is the name of the
 /// reference curve.
 std::vector<NamedFigure> response_plots(const std::string& formulation,
-                                        const response::ResponseStudy& study);
+                                        const response::ResponseStudy& study,
+                                        const NyquistMarks& marks = {});
 
 }  // namespace flexarm::report

@@ -21,7 +21,7 @@ constexpr int kFrameWidth_px = 520;  // with the effects' names and the legend
 /// One series a kind of separation, in the order of the legend.
 std::array<Series, 3> separation_series() {
   std::array<Series, 3> all;
-  all[0] = {"indistinguishable", {}, {}, marker_style(vermillion, Marker::filled_square, 1.6)};
+  all[0] = {"indistinguishable", {}, {}, marker_style(purple, Marker::filled_square, 1.6)};
   all[1] = {"weakly distinguishable", {}, {}, marker_style(orange, Marker::filled_square, 1.2)};
   all[2] = {"distinguishable", {}, {}, marker_style(sky_blue, Marker::disc, 0.5)};
   return all;

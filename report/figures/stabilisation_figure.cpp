@@ -1,5 +1,6 @@
 #include "report/figures/stabilisation_figure.hpp"
 
+#include "report/figures/axis_units.hpp"
 #include "report/figures/equal_axes.hpp"
 #include "report/figures/feature_marks.hpp"
 #include "report/figures/meaning.hpp"
@@ -52,7 +53,7 @@ struct Symbol {
 const std::array<Symbol, static_cast<std::size_t>(Stability::kCount)> kSymbols = {{
     {"new pole", marker_style(grey, Marker::plus, 0.6)},
     {"stable frequency", marker_style(orange, Marker::triangle, 0.7)},
-    {"stable frequency and damping", marker_style(blue, Marker::square, 0.7)},
+    {"stable frequency and damping", marker_style(green, Marker::square, 0.7)},
     {"stable pole", marker_style(kIdentifiedColour, Marker::disc, 0.8)},
 }};
 
@@ -114,9 +115,9 @@ Figure stabilisation_figure(const measured::StabilisationChart& chart,
   for (const double f_Hz : plot.fitted_poles_Hz) {
     if (f_Hz < chart.from_Hz || f_Hz > chart.to_Hz) continue;
     fitted_Hz.push_back(f_Hz);
-    panel.annotations.push_back({f_Hz, highest, fmt::format("{:#.5g}", f_Hz), TextPlace::above});
+    panel.annotations.push_back({f_Hz, highest, frequency_text(f_Hz), TextPlace::above, f_Hz});
   }
-  add_frequency_lines(panel, fitted_Hz, "fitted pole [Hz]", thin_line(black));
+  add_frequency_lines(panel, fitted_Hz, "fitted pole", thin_line(kIdentifiedColour));
   for (std::size_t kind = 0; kind < kSymbols.size(); ++kind) {
     Series series{kSymbols[kind].name, {}, {}, kSymbols[kind].style};
     for (const auto& pole : chart.poles) {

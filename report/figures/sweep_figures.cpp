@@ -27,7 +27,7 @@ using RootsOfPoints = std::vector<std::optional<std::complex<double>>>;
 constexpr double kHz = 2.0 * std::numbers::pi;  // rad/s
 constexpr double kLogarithmicFrom = 30.0;       // largest over smallest value
 constexpr std::size_t kMostDrawnPoints = 400;   // of a curve: more is finer than a picture shows
-constexpr std::size_t kMostFamilies = 6;        // values of the first of two parameters
+constexpr std::size_t kMostFamilies = 5;        // values of the first of two parameters
 constexpr std::size_t kMostPanels = 6;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -177,7 +177,7 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
     for (std::size_t m = 0; m < result.task.models.size(); ++m) {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         Style style = overlay_style(m);
-        style.colour = static_cast<int>(i);
+        style.colour = formulation_colour(i);
         panel.series.push_back(series_of(in_words(result.task.models[m].name), last,
                                          group.curves[k][m], rows[i] * columns, style));
         if (!has_a_value(panel.series.back().y)) {
@@ -203,7 +203,7 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!row_is_drawn[i]) continue;
     Style style;
-    style.colour = static_cast<int>(i);
+    style.colour = formulation_colour(i);
     style.line_width_px = 3.0;
     figure.legend.push_back({fmt::format("{:.4g}", first.values[rows[i]]), style});
   }
@@ -211,7 +211,7 @@ Figure over_two(const SweepResult& result, const std::string& title, const Group
   for (std::size_t m = 0; m < result.task.models.size(); ++m) {
     if (!model_is_drawn[m]) continue;
     figure.legend.push_back({in_words(result.task.models[m].name), overlay_style(m)});
-    figure.legend.back().style->colour = black;
+    figure.legend.back().style->colour = grey;
   }
   return figure;
 }
@@ -296,7 +296,7 @@ std::vector<NamedFigure> sweep_plots(const SweepResult& result) {
   draw(result, "poles", "Poles", {poles}, plots);
   auto damped = damped_groups(result);
   for (auto& group : damped) {
-    if (two) group.title = "track";
+    if (two) group.title = "pole";
   }
   draw(result, "damped-poles", "Poles with damping", damped, plots);
   for (const auto& sensor : result.task.questions.sensors) {

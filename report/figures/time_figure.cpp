@@ -17,7 +17,7 @@ constexpr int kTimeFurniture_px = 110;  // title and time axis
 /// pale.
 Style style_of(std::size_t i, std::size_t curves) {
   Style style;
-  style.colour = i == 0 ? kBaselineColour : kIdentifiedColour;
+  style.colour = i == 0 ? kBaselineColour : green;
   const bool is_below = i == 0 && curves > 1;
   style.line_width_px = is_below ? 2.5 : 1.1;
   style.tint = is_below ? 0.6 : 0.0;

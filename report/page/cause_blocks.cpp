@@ -16,15 +16,8 @@ namespace flexarm::report::page {
 
 namespace {
 
-std::string probability_text(double probability) {
-  constexpr double kSmallest = 0.01;
-  return probability >= kSmallest || probability == 0.0 ? fmt::format("{:.2f}", probability)
-                                                        : fmt::format("{:.1e}", probability);
-}
-
-std::string estimate_text(double value, double std_error, const std::string& unit) {
-  const std::string in_unit = unit_text(unit).empty() ? "" : " " + unit_text(unit);
-  return fmt::format("{} ± {}{}", number_of(value, 6), number_of(std_error, 2), in_unit);
+std::string explained_text(double share) {
+  return fmt::format("{:.3g} %", explained_percent(share));
 }
 
 std::string joined_words(const std::vector<std::string>& names) {
@@ -46,23 +39,32 @@ std::vector<double> column_of(const diagnose::EmpiricalLaw& law, const std::vect
 
 }  // namespace
 
+std::string probability_text(double probability) {
+  constexpr double kSmallest = 0.01;
+  return probability >= kSmallest || probability == 0.0 ? fmt::format("{:.2f}", probability)
+                                                        : fmt::format("{:.1e}", probability);
+}
+
 std::string cause_label(const diagnose::Cause& cause) {
   const std::string effect = sentence_of(cause.effect);
   return cause.sensor.empty() ? effect : effect + " on " + text_in_words(cause.sensor);
 }
 
 RankingBlock cause_ranking(const diagnose::Diagnosis& diagnosis) {
-  RankingBlock block{{"ranking", "Probability of the causes",
-                      "Posterior probability, relative to the sets of effects that were tried."},
+  RankingBlock block{{"ranking", "Probability of each cause",
+                      "Posterior probability of each effect by itself, relative to the sets of "
+                      "effects that were tried. Several may be present: the probabilities do not add "
+                      "up."},
                      {}};
   for (const auto& cause : diagnosis.causes) {
-    RankingItem item{
-        cause_label(cause), cause.confidence, probability_text(cause.confidence), true, {}};
+    const bool is_explaining = explained_percent(cause.share) > 0.0;
+    RankingItem item{cause_label(cause), cause.confidence, probability_text(cause.confidence),
+                     is_explaining, {}};
     for (const auto& parameter : cause.parameters) {
       item.details.push_back({text_in_words(parameter.name),
-                              estimate_text(parameter.value, parameter.std_error, parameter.unit)});
+                              estimate_of(parameter.value, parameter.std_error, parameter.unit)});
     }
-    item.details.push_back({"explains of the excess residual", percent_of(cause.share)});
+    item.details.push_back({"explains of the excess residual", explained_text(cause.share)});
     if (!cause.confusable_with.empty()) {
       item.details.push_back({"indistinguishable from", joined_words(cause.confusable_with)});
       item.details.push_back(
@@ -70,20 +72,6 @@ RankingBlock cause_ranking(const diagnose::Diagnosis& diagnosis) {
     }
     block.items.push_back(std::move(item));
   }
-  for (const auto& miss : diagnosis.near_misses) {
-    block.items.push_back({sentence_of(miss.effects),
-                           miss.probability,
-                           probability_text(miss.probability),
-                           false,
-                           {{"explains of the excess residual", percent_of(miss.share)},
-                            {"delta BIC", number_of(miss.information, 3)},
-                            {"NRMSE", percent_of(miss.error)}}});
-  }
-  block.items.push_back({"Something that is not in the effect library",
-                         diagnosis.something_else,
-                         probability_text(diagnosis.something_else),
-                         false,
-                         {}});
   return block;
 }
 
@@ -151,13 +139,16 @@ CurvesBlock empirical_law_block(const diagnose::EmpiricalLaw& law) {
 
 RankingBlock missing_force_ranking(const diagnose::MissingForce& force) {
   RankingBlock block{{"missing-force", "Port of the missing force",
-                      "Part of the excess residual that an arbitrary force at each port explains."},
-                     {}};
+                      "Part of the excess residual that an arbitrary force at each port explains by "
+                      "itself; the parts do not add up."},
+                     {},
+                     "port stated"};
   for (std::size_t i = 0; i < force.ports.size(); ++i) {
     const diagnose::PortShare& port = force.ports[i];
     RankingItem item{sentence_of(port_name(port)),
-                     std::clamp(port.share, 0.0, 1.0),
-                     fmt::format("{:.0f} ± {:.0f} %", 100.0 * port.share, 100.0 * port.std_error),
+                     explained_percent(port.share) / 100.0,
+                     fmt::format("{:.0f} ± {:.0f} %", explained_percent(port.share),
+                                 100.0 * port.std_error),
                      i < force.stated,
                      {}};
     if (!port.place.empty()) item.details.push_back({"best place", text_in_words(port.place)});

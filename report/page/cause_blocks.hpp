@@ -5,9 +5,11 @@
 
 namespace flexarm::report::page {
 
-/// Posterior probabilities: of the named causes, of sets of effects that were not named, and of
-/// something that no effect of the library is.
+/// Posterior probabilities of the named causes, each by itself.
 RankingBlock cause_ranking(const diagnose::Diagnosis& diagnosis);
+
+/// "0.98", "1.2e-05".
+std::string probability_text(double probability);
 
 /// What speaks for each cause, and what would speak against it; a row a sentence.
 TableBlock evidence_table(const diagnose::Diagnosis& diagnosis);

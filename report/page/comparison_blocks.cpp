@@ -66,8 +66,7 @@ Series convergence_series(const compare::RefinementCurve& refined, std::size_t i
 
 void add_formulation(MapBlock& map, const Comparison& comparison, std::size_t k,
                      const arm::Sensor& sensor) {
-  // The first role is drawn as what was measured is.
-  const MapSeries series{text_in_words(comparison.subjects[k]), numbered_role(k + 1)};
+  const MapSeries series{text_in_words(comparison.subjects[k]), numbered_role(k)};
   std::vector<compare::AnalyticalPole> poles;
   std::vector<std::complex<double>> zeros;
   for (const auto& row : comparison.roots) {

@@ -75,8 +75,4 @@ std::vector<DiagnosedChannel> diagnosed_channels(const diagnose::Experiment& exp
   return channels;
 }
 
-bool has_after(const diagnose::Diagnosis& diagnosis) {
-  return !diagnosis.causes.empty() || diagnosis.empirical_law || !diagnosis.refitted.empty();
-}
-
 }  // namespace flexarm::report::page

@@ -33,10 +33,6 @@ std::vector<DiagnosedChannel> diagnosed_channels(const diagnose::Experiment& exp
                                                  const diagnose::Diagnosis& diagnosis,
                                                  measured::RunKind kind);
 
-/// Whether there is a simulation after beside the one before: with causes, a law or numbers that
-/// were refitted.
-bool has_after(const diagnose::Diagnosis& diagnosis);
-
 /// Legends of the simulations before and after.
 inline constexpr const char* kBeforeLabel = "simulated, arm file";
 inline constexpr const char* kAfterLabel = "simulated, extended arm";

@@ -4,6 +4,7 @@
 #include "arm/linear_arm.hpp"
 #include "arm/rigid_hub.hpp"
 #include "compare/identification.hpp"
+#include "report/figures/overlay_figure.hpp"
 #include "report/page/diagnosed_channels.hpp"
 #include "report/page/page_words.hpp"
 #include "report/page/root_map.hpp"

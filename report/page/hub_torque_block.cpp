@@ -46,11 +46,11 @@ ScatterPanel torque_scatter(const diagnose::HubTorque& torque,
     bar_y.push_back(kGapNumber);
   }
   panel.series.push_back(
-      {"mean ± 2 standard errors", Role::second, Draw::line, std::move(bar_x), std::move(bar_y)});
-  panel.series.push_back({"mean", Role::second, Draw::points, means.x, means.mean});
+      {"mean ± 2 standard errors", Role::first, Draw::line, std::move(bar_x), std::move(bar_y)});
+  panel.series.push_back({"mean", Role::first, Draw::points, means.x, means.mean});
   TorqueLine found = identified_torque(torque, of_velocity, x);
   if (!found.x.empty()) {
-    panel.series.push_back({"significant terms", Role::third, Draw::line, std::move(found.x),
+    panel.series.push_back({"significant terms", Role::after, Draw::line, std::move(found.x),
                             std::move(found.torque_N_m)});
   }
   return panel;

@@ -189,8 +189,11 @@ void add_identified(MapBlock& map, const IdentifiedRuns& runs,
   }
 }
 
-const std::array<const char*, 4> kStabilityNames = {"new pole", "stable frequency",
-                                                    "stable frequency and damping", "stable pole"};
+const std::array<std::pair<const char*, Role>, 4> kStabilities = {
+    {{"new pole", Role::noise},
+     {"stable frequency", Role::third},
+     {"stable frequency and damping", Role::first},
+     {"stable pole", Role::after}}};
 
 std::size_t stability_class(const measured::ChartPole& pole) {
   if (pole.stable()) return 3;
@@ -255,7 +258,7 @@ CurvesBlock autopower_spectra(const IdentifiedRuns& runs) {
         is_torque ? "N m" : axis_unit(arm::parse_sensor(measured::to_string(input)));
     CurvesView view{{run.run.id}, {}, {}};
     view.panels.push_back(spectrum_of(text_in_words(measured::to_string(input)), input_unit,
-                                      Role::first, estimate.frequency_Hz, estimate.input_autopower,
+                                      Role::measured, estimate.frequency_Hz, estimate.input_autopower,
                                       {}));
     for (const auto& channel : estimate.channels) {
       view.panels.push_back(spectrum_of(sensor_label(channel.sensor), axis_unit(channel.sensor),
@@ -322,7 +325,7 @@ ScatterBlock stabilisation_charts(const IdentifiedRuns& runs) {
         {"order of the denominator", ""},
         false,
         {}};
-    for (std::size_t kind = 0; kind < kStabilityNames.size(); ++kind) {
+    for (std::size_t kind = 0; kind < kStabilities.size(); ++kind) {
       std::vector<double> x;
       std::vector<double> y;
       for (const auto& pole : chart.poles) {
@@ -332,7 +335,7 @@ ScatterBlock stabilisation_charts(const IdentifiedRuns& runs) {
       }
       if (x.empty()) continue;
       panel.series.push_back(
-          {kStabilityNames[kind], numbered_role(kind), Draw::points, std::move(x), std::move(y)});
+          {kStabilities[kind].first, kStabilities[kind].second, Draw::points, std::move(x), std::move(y)});
     }
     block.views.push_back({{joined(ids_of(fit, runs.identification))}, {}, {std::move(panel)}});
   }
@@ -373,9 +376,9 @@ CurvesBlock recorded_signals(const IdentifiedRuns& runs) {
       panel.series.push_back({label, role, Draw::line, record_of(record->time_s, values)});
       block.views.push_back({{run.id, label}, {}, {std::move(panel)}});
     };
-    add("torque", "N m", Role::first, record->torque_N_m);
+    add("torque", "N m", Role::measured, record->torque_N_m);
     if (!record->reference.values.empty()) {
-      add("reference", unit_text(record->reference.unit), Role::second, record->reference.values);
+      add("reference", unit_text(record->reference.unit), Role::measured, record->reference.values);
     }
     for (const auto& channel : record->channels) {
       add(sensor_label(channel.sensor), axis_unit(channel.sensor), Role::measured, channel.values);

@@ -24,7 +24,7 @@ Series difference(const compare::MeasuredResponse& compared, std::size_t model) 
     const std::complex<double> measured = compared.measured.response[i];
     values.push_back(std::abs(compared.values[model][i] - measured) / std::abs(measured));
   }
-  return curve(text_in_words(compared.models[model]), numbered_role(model + 1),
+  return curve(text_in_words(compared.models[model]), numbered_role(model),
                compared.measured.frequency_Hz, for_log_axis(std::move(values)), Draw::points);
 }
 
@@ -35,8 +35,7 @@ std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compar
   CurvesPanel apart{{"relative difference", "", AxisScale::logarithmic}, 0.9, {}};
   const bool is_dense = !compared.curves.empty();
   for (std::size_t k = 0; k < compared.models.size(); ++k) {
-    // The first role is drawn as what was measured is.
-    curves.push_back({text_in_words(compared.models[k]), numbered_role(k + 1),
+    curves.push_back({text_in_words(compared.models[k]), numbered_role(k),
                       is_dense ? compared.curve_frequency_Hz : measured.frequency_Hz,
                       is_dense ? compared.curves[k] : compared.values[k]});
     apart.series.push_back(difference(compared, k));

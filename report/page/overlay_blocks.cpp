@@ -5,11 +5,14 @@
 #include "report/largest_stretch.hpp"
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -34,6 +37,23 @@ CurvesPanel residual_panel(const DiagnosedChannel& channel, const std::string& l
   return panel;
 }
 
+/// What drives the run, as it was recorded: the torque, and the reference of a controller.
+std::vector<CurvesPanel> input_panels(const DiagnosedChannel& channel) {
+  const auto& record = record_of_run(channel);
+  std::vector<CurvesPanel> panels;
+  const auto add = [&](const char* label, const std::string& unit,
+                       const std::vector<double>& values) {
+    CurvesPanel panel{{label, unit}, 0.8, {}};
+    panel.series.push_back({label, Role::measured, Draw::line, record_of(record.time_s, values)});
+    panels.push_back(std::move(panel));
+  };
+  add("torque", "N m", record.torque_N_m);
+  if (!record.reference.values.empty()) {
+    add("reference", unit_text(record.reference.unit), record.reference.values);
+  }
+  return panels;
+}
+
 std::vector<CurvesPanel> overlay_panels(const DiagnosedChannel& channel, bool has_causes) {
   const auto& time_s = record_of_run(channel).time_s;
   CurvesPanel signal{{channel.sensor, channel.unit}, 1.6, {}};
@@ -50,16 +70,20 @@ std::vector<CurvesPanel> overlay_panels(const DiagnosedChannel& channel, bool ha
     panels.push_back(residual_panel(channel, "residual, extended arm", Role::residual_after,
                                     channel.overlay->after));
   }
+  std::ranges::move(input_panels(channel), std::back_inserter(panels));
   return panels;
 }
 
-/// Where `count` samples begin whose residuals without causes have the largest squares.
-std::size_t begin_of_worst(const std::vector<double>& residual, std::size_t count) {
+/// The part of a long run in which the residuals of the arm file have the largest squares.
+std::optional<std::array<double, 2>> worst_stretch_s(const DiagnosedChannel& channel) {
+  const auto& time_s = record_of_run(channel).time_s;
+  if (time_s.size() <= kWorstSamples) return std::nullopt;
   std::vector<double> squares;
-  for (const double value : residual) {
+  for (const double value : channel.residual(channel.overlay->before)) {
     squares.push_back(std::isfinite(value) ? value * value : 0.0);
   }
-  return begin_of_largest_stretch(squares, count);
+  const std::size_t from = begin_of_largest_stretch(squares, kWorstSamples);
+  return std::array{time_s[from], time_s[from + kWorstSamples - 1]};
 }
 
 /// What drives the simulation of a run: the reference of a stated controller, else the torque.
@@ -125,47 +149,18 @@ CurvesView correlation_view(const DiagnosedChannel& channel, bool has_causes,
 }  // namespace
 
 CurvesBlock overlay_block(const std::vector<DiagnosedChannel>& channels, bool has_causes) {
-  CurvesBlock block{{"overlay", "Signals and residuals",
-                     "Each panel has a scale of its own. The channel with the largest error is "
-                     "first."},
+  CurvesBlock block{{"overlay", "Signals, residuals and torque",
+                     "The channel with the largest error is first. Each panel has a scale of its own. "
+                     "Of a long run the panels show the part where the residuals of the arm file are "
+                     "largest; the strip below them shows the whole run."},
                     {"time", "s"},
                     {"run", "sensor"},
                     {}};
   for (const DiagnosedChannel& channel : channels) {
     block.views.push_back({{channel.run->run.id, channel.sensor},
                            channel.facts(has_causes),
-                           overlay_panels(channel, has_causes)});
+                           overlay_panels(channel, has_causes), worst_stretch_s(channel)});
   }
-  return block;
-}
-
-std::optional<CurvesBlock> worst_overlay(const std::vector<DiagnosedChannel>& channels,
-                                         bool has_causes) {
-  if (channels.empty()) return std::nullopt;
-  const DiagnosedChannel& worst = channels.front();
-  const auto& time_s = record_of_run(worst).time_s;
-  const std::size_t count = std::min(kWorstSamples, time_s.size());
-  const std::size_t from = begin_of_worst(worst.residual(worst.overlay->before), count);
-  CurvesBlock block{
-      {"worst-channel", fmt::format("{}, run {}", sentence_of(worst.sensor), worst.run->run.id),
-       count < time_s.size()
-           ? "The channel with the largest error, where the simulation of the arm "
-             "file is furthest from the measurement."
-           : "The channel with the largest error."},
-      {"time", "s"},
-      {},
-      {}};
-  CurvesView view{{}, worst.facts(has_causes), overlay_panels(worst, has_causes)};
-  for (CurvesPanel& panel : view.panels) {
-    for (Series& series : panel.series) {
-      auto& record = std::get<Record>(series.data);
-      record.x.start = time_s[from];
-      record.x.count = count;
-      record.y = {record.y.begin() + static_cast<std::ptrdiff_t>(from),
-                  record.y.begin() + static_cast<std::ptrdiff_t>(from + count)};
-    }
-  }
-  block.views.push_back(std::move(view));
   return block;
 }
 

@@ -2,18 +2,13 @@
 
 #include "report/page/diagnosed_channels.hpp"
 
-#include <optional>
-
 namespace flexarm::report::page {
 
-/// Measured and simulated signals of `time` runs over time, the residuals below, each on a scale of
-/// its own; a view a run and sensor. No views without such runs.
+/// Measured and simulated signals of `time` runs over time, below them the residuals and what drove
+/// the run, each on a scale of its own; a view a run and sensor. The whole runs are in it; of runs
+/// of more than `kWorstSamples` so many are in view first, where the simulation of the arm file is
+/// furthest off. No views without such runs.
 CurvesBlock overlay_block(const std::vector<DiagnosedChannel>& channels, bool has_causes);
-
-/// The first of the channels, at the place where the simulation without causes is furthest off.
-/// Empty without channels.
-std::optional<CurvesBlock> worst_overlay(const std::vector<DiagnosedChannel>& channels,
-                                         bool has_causes);
 inline constexpr std::size_t kWorstSamples = 500;
 
 /// Auto-correlation of the residuals and their cross-correlation with the input, with bounds of

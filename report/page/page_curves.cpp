@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -14,7 +13,6 @@ namespace flexarm::report::page {
 namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-constexpr double kPhaseWrap_deg = 225.0;
 
 bool has_value(const BodeCurve& curve, std::size_t k) {
   const double magnitude = std::abs(curve.response[k]);
@@ -64,24 +62,44 @@ bool has_gap(const BodeCurve& curve, const std::vector<std::size_t>& lines, std:
   return false;
 }
 
-/// A value of each drawn line, with gaps over what was not measured and where the phase wraps.
+/// A value of each drawn line, with gaps over what was not measured.
 template <class ValueAndStd>
-GappedCurve gapped(const BodeCurve& curve, const std::vector<std::size_t>& lines, double wrap,
+GappedCurve gapped(const BodeCurve& curve, const std::vector<std::size_t>& lines,
                    const ValueAndStd& value_and_std) {
   GappedCurve made;
-  double before = kGapNumber;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t line = lines[i];
     const auto [value, deviation] = value_and_std(i);
     const double f_Hz = curve.frequency_Hz[line];
-    const bool wraps = std::abs(value - before) > wrap;
-    if (wraps || has_gap(curve, lines, i)) {
-      made.add(f_Hz, kGapNumber, kGapNumber);
-    }
+    if (has_gap(curve, lines, i)) made.add(f_Hz, kGapNumber, kGapNumber);
     made.add(f_Hz, value, deviation);
-    before = value;
   }
   return made;
+}
+
+/// The phase at all lines, continuous over those that are drawn at all.
+PhaseCurve phase_of(const BodeCurve& curve) {
+  auto response = curve.response;
+  for (std::size_t k = 0; k < response.size(); ++k) {
+    if (!has_value(curve, k) || !is_known(curve.relative_std, k)) response[k] = kGapNumber;
+  }
+  return {curve.frequency_Hz, continuous_phase_deg(response)};
+}
+
+/// The phases of curves, each by whole turns near that of the first one without a deviation.
+std::vector<PhaseCurve> phases_of(const std::vector<BodeCurve>& curves) {
+  std::vector<PhaseCurve> phases;
+  for (const BodeCurve& curve : curves) phases.push_back(phase_of(curve));
+  const auto model = std::ranges::find_if(
+      curves, [](const BodeCurve& curve) { return curve.relative_std.empty(); });
+  if (model == curves.end()) return phases;
+  const PhaseCurve reference = phases[static_cast<std::size_t>(model - curves.begin())];
+  for (PhaseCurve& phase : phases) turn_towards(reference, phase);
+  const double turn_deg = to_principal_turn_deg(phases.front().phase_deg);
+  for (PhaseCurve& phase : phases) {
+    for (double& value : phase.phase_deg) value += turn_deg;
+  }
+  return phases;
 }
 
 }  // namespace
@@ -147,23 +165,21 @@ std::vector<CurvesPanel> bode_panels(const std::string& unit,
   CurvesPanel magnitude{{"magnitude", unit, AxisScale::logarithmic}, 2.0, {}};
   CurvesPanel phase{{"phase", "deg"}, 1.2, {}};
   CurvesPanel coherence{{"coherence", "", AxisScale::linear, std::array{0.0, 1.0}}, 0.7, {}};
-  for (const BodeCurve& curve : curves) {
+  const auto phases = phases_of(curves);
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const BodeCurve& curve = curves[c];
     const auto lines = drawn_lines(curve, true);
     if (lines.empty()) continue;
     const bool has_std = !curve.relative_std.empty();
     const auto std_of = [&](std::size_t line) {
       return has_std ? curve.relative_std[line] : kGapNumber;
     };
-    constexpr double kNoWrap = std::numeric_limits<double>::infinity();
-    auto sizes = gapped(curve, lines, kNoWrap, [&](std::size_t i) {
+    auto sizes = gapped(curve, lines, [&](std::size_t i) {
       const double size = std::abs(curve.response[lines[i]]);
       return std::pair(size, size * std_of(lines[i]));
     });
-    std::vector<std::complex<double>> drawn;
-    for (const std::size_t line : lines) drawn.push_back(curve.response[line]);
-    const auto degrees = principal_phase_deg(drawn);
-    auto angles = gapped(curve, lines, kPhaseWrap_deg, [&](std::size_t i) {
-      return std::pair(degrees[i], kDegreesPerRadian * std_of(lines[i]));
+    auto angles = gapped(curve, lines, [&](std::size_t i) {
+      return std::pair(phases[c].phase_deg[lines[i]], kDegreesPerRadian * std_of(lines[i]));
     });
     magnitude.series.push_back(to_series(curve, curve.role, sizes, has_std));
     phase.series.push_back(to_series(curve, curve.role, angles, has_std));

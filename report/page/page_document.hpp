@@ -136,6 +136,7 @@ struct CurvesView {
   std::vector<std::string> labels;  ///< one for each of the block's `choices`
   std::vector<Fact> facts = {};
   std::vector<CurvesPanel> panels;
+  std::optional<std::array<double, 2>> shown = {};  ///< part of x that is in view first
 };
 
 /// Curves over a common x axis, panels one above the other; one view is seen at a time.
@@ -198,7 +199,7 @@ struct MapBlock {
 
 struct RankingItem {
   std::string label;
-  double share = 0.0;  ///< 0 to 1, the length of the bar
+  double share = 0.0;  ///< length of the bar, 0 to 1
   std::string value;
   bool chosen = false;
   std::vector<Fact> details = {};
@@ -207,6 +208,7 @@ struct RankingItem {
 struct RankingBlock {
   BlockHead head;
   std::vector<RankingItem> items;
+  std::string chosen_word = "identified";  ///< beside those that are chosen
 };
 
 /// A pole or zero over the parameter, a number for each of its values; NaN where there is none.
@@ -259,8 +261,11 @@ struct PageDocument {
   std::string title;
   Verdict verdict;
   std::optional<Block> headline = {};
-  std::vector<Fact> facts = {};
+  std::vector<Fact> facts = {};  ///< of the first screen, as the two below
   std::vector<Section> sections = {};
+  std::vector<Fact> results = {};  ///< what came out, each with its value
+  std::string next_step = {};      ///< a sentence
+  std::string date = {};           ///< "2026-11-29"
 
   /// Adds a section that says something; drops an empty one.
   void add(Section section);

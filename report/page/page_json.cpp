@@ -153,6 +153,7 @@ class Writer {
       views.push_back({{"labels", view.labels},
                        {"facts", facts_json(view.facts)},
                        {"panels", std::move(panels)}});
+      if (view.shown) views.back()["shown"] = *view.shown;
     }
     return {{"kind", "curves"},
             {"x", axis_json(block.x)},
@@ -215,7 +216,7 @@ class Writer {
                        {"chosen", item.chosen},
                        {"details", facts_json(item.details)}});
     }
-    return {{"kind", "ranking"}, {"items", std::move(items)}};
+    return {{"kind", "ranking"}, {"chosen_word", block.chosen_word}, {"items", std::move(items)}};
   }
 
   Json content(const SweepBlock& block) {
@@ -331,12 +332,15 @@ PageTexts page_texts(const PageDocument& document, std::size_t most_array_bytes)
                {"program", document.program},
                {"command", document.command},
                {"title", document.title},
+               {"date", document.date},
                {"verdict",
                 {{"status", name_of(document.verdict.status)},
                  {"word", document.verdict.word},
                  {"sentence", document.verdict.sentence}}}};
   if (document.headline) json["headline"] = writer.block(*document.headline);
+  json["results"] = facts_json(document.results);
   json["facts"] = facts_json(document.facts);
+  json["next_step"] = document.next_step;
   json["sections"] = Json::array();
   for (const Section& section : document.sections) {
     Json blocks = Json::array();

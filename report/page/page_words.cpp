@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -73,7 +74,24 @@ std::string response_unit(const arm::Sensor& sensor) {
 }
 
 std::string percent_of(double part) {
-  return std::isfinite(part) ? fmt::format("{:.3g} %", 100.0 * part) : "–";
+  if (!std::isfinite(part)) return "–";
+  const double percent = 100.0 * part;
+  return std::abs(percent) < 1000.0 ? fmt::format("{:.3g} %", percent)
+                                    : fmt::format("{:.0f} %", percent);
+}
+
+std::string estimate_of(double value, double std_error, const std::string& unit) {
+  constexpr int kDigitsOfError = 2;
+  constexpr int kWithoutError = 6;
+  constexpr int kMostDigits = 12;
+  int digits = kWithoutError;
+  if (std_error > 0.0 && std::isfinite(std_error) && value != 0.0) {
+    const double decades = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(std_error));
+    digits = std::clamp(kDigitsOfError + static_cast<int>(decades), 1, kMostDigits);
+  }
+  const std::string printed = unit_text(unit);
+  return fmt::format("{} ± {}{}{}", number_of(value, digits), number_of(std_error, kDigitsOfError),
+                     printed.empty() ? "" : " ", printed);
 }
 
 std::string number_of(double value, int digits) {

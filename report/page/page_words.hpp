@@ -24,4 +24,7 @@ std::string response_unit(const arm::Sensor& sensor);
 std::string percent_of(double part);              ///< "60.5 %" of 0.605
 std::string number_of(double value, int digits);  ///< "12.3"; a dash where it is no number
 
+/// "0.002154091 ± 5.4e-08 N m": the value to two digits of its standard error.
+std::string estimate_of(double value, double std_error, const std::string& unit);
+
 }  // namespace flexarm::report::page

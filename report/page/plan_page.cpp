@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -19,25 +18,11 @@ namespace {
 
 using diagnose::Plan;
 
+/// Indistinguishable pairs on the first screen, the closest ones.
+constexpr std::size_t kShownPairs = 6;
+
 std::string effect_words(const Plan& plan, std::size_t effect) {
   return sentence_of(plan.effects[effect].hypothesis.label());
-}
-
-/// The smallest expected delta BIC of an effect over any other, and which; empty where there is
-/// none.
-struct NearestRival {
-  std::size_t rival = 0;
-  double lead = std::numeric_limits<double>::infinity();
-};
-
-std::optional<NearestRival> nearest_rival(const Plan& plan, std::size_t effect) {
-  std::optional<NearestRival> nearest;
-  for (std::size_t b = 0; b < plan.effects.size(); ++b) {
-    const auto& separation = plan.separations[effect][b];
-    if (!separation || (nearest && separation->lead >= nearest->lead)) continue;
-    nearest = NearestRival{b, separation->lead};
-  }
-  return nearest;
 }
 
 std::string lead_words(double lead) {
@@ -60,21 +45,21 @@ RankingBlock distinguishability(const Plan& plan) {
   std::vector<std::pair<double, RankingItem>> items;
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     RankingItem item{effect_words(plan, i), 0.0, "not detectable", false, {}};
-    double lead = -1.0;
+    double lead = -std::numeric_limits<double>::infinity();
     if (plan.effects[i].shows) {
       const auto nearest = nearest_rival(plan, i);
       lead = nearest ? nearest->lead : std::numeric_limits<double>::infinity();
       item.share = share_of(lead);
       item.value = nearest ? lead_words(lead) : "no alternative";
       item.details.push_back(
-          {"minimum detectable value", text_in_words(minimum_detectable(plan.effects[i]))});
+          {"minimum detectable value", unit_text(text_in_words(minimum_detectable(plan.effects[i])))});
       if (nearest) {
-        item.details.push_back({"nearest alternative", effect_words(plan, nearest->rival)});
+        item.details.push_back({"nearest alternative", effect_words(plan, nearest->effect)});
       }
     }
     items.emplace_back(lead, std::move(item));
   }
-  std::ranges::stable_sort(items, std::ranges::greater{}, &std::pair<double, RankingItem>::first);
+  std::ranges::stable_sort(items, {}, &std::pair<double, RankingItem>::first);
   for (auto& [lead, item] : items) block.items.push_back(std::move(item));
   return block;
 }
@@ -194,12 +179,24 @@ PageDocument plan_page(const Plan& plan, const PageOrigin& origin) {
       {"detectable effects", fmt::format("{} of {}", detectable, plan.effects.size())},
       {"indistinguishable pairs", fmt::format("{}", plan.ties.size())},
       {"runs of the improved plan", fmt::format("{}", plan.better.runs.size())}};
+  for (const auto& tie : plan.ties) {
+    if (document.results.size() == kShownPairs) break;
+    document.results.push_back(
+        {effect_words(plan, tie.truth) + " and " +
+             text_in_words(plan.effects[tie.rival].hypothesis.label()),
+         lead_words(tie.lead)});
+  }
+  document.next_step = plan.ties.empty() ? "Measure as planned."
+                       : plan.added.empty()
+                           ? "Measure another signal: no run that was considered resolves a pair."
+                           : fmt::format("Measure with the improved plan, which --write writes: {}.",
+                                         text_in_words(plan.added.front().further.change));
+  document.add(ties_section(plan));
   Section detection{"detection", "Detection"};
   for (const auto& notice : plan.notices) detection.text.push_back(sentence_of(notice));
   add_table(detection, detection_table(plan), "effects");
   detection.add(standard_errors(plan));
   document.add(std::move(detection));
-  document.add(ties_section(plan));
   Section pairs{"pairs", "Pairs of effects"};
   if (!plan.effects.empty()) pairs.blocks.emplace_back(separation_matrix_block(plan));
   add_table(pairs, separation_table(plan), "pair-table");

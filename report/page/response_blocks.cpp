@@ -210,20 +210,4 @@ CurvesBlock diagnosed_responses(const std::vector<DiagnosedChannel>& frequency_c
   return block;
 }
 
-std::optional<CurvesBlock> worst_response(const std::vector<DiagnosedChannel>& frequency_channels,
-                                          bool has_causes) {
-  if (frequency_channels.empty()) return std::nullopt;
-  const DiagnosedChannel& worst = frequency_channels.front();
-  auto panels = response_panels(given(worst), has_causes);
-  if (panels.empty()) return std::nullopt;
-  CurvesBlock block{
-      {"worst-channel", fmt::format("Torque to {}, run {}", worst.sensor, worst.run->run.id),
-       "The response with the largest error."},
-      frequency_axis(),
-      {},
-      {}};
-  block.views.push_back({{}, worst.facts(has_causes), std::move(panels)});
-  return block;
-}
-
 }  // namespace flexarm::report::page

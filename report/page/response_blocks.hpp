@@ -2,8 +2,6 @@
 
 #include "report/page/diagnosed_channels.hpp"
 
-#include <optional>
-
 namespace flexarm::report::page {
 
 /// Frequency responses of the torque to each sensor, measured beside simulated, with coherence and,
@@ -16,9 +14,5 @@ namespace flexarm::report::page {
 CurvesBlock diagnosed_responses(const std::vector<DiagnosedChannel>& frequency_channels,
                                 const std::vector<DiagnosedChannel>& time_channels,
                                 bool has_causes);
-
-/// The view of the first `frf` channel. Empty without one.
-std::optional<CurvesBlock> worst_response(const std::vector<DiagnosedChannel>& frequency_channels,
-                                          bool has_causes);
 
 }  // namespace flexarm::report::page

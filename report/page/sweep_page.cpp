@@ -50,10 +50,9 @@ std::vector<Fact> sweep_facts(const SweepResult& result) {
                      number_of(axis.values.back(), 4), unit.empty() ? "" : " " + unit)});
   }
   facts.push_back({"points", fmt::format("{}", result.task.points())});
-  double worst = 0.0;
-  for (const auto& row : result.agreement) worst = std::max(worst, row.worst);
-  if (!result.agreement.empty()) {
-    facts.push_back({"largest relative difference", fmt::format("{:.1e}", worst)});
+  if (const auto* worst = largest_sweep_difference(result); worst != nullptr && worst->compared > 0) {
+    facts.push_back({"largest relative difference",
+                     fmt::format("{:.2g} (tolerance {:g})", worst->worst, worst->tolerance)});
   }
   facts.push_back({"events", fmt::format("{}", result.events.size())});
   return facts;

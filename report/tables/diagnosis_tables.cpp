@@ -147,7 +147,7 @@ std::string no_name_reason(const diagnose::Diagnosis& diagnosis) {
                                         best.effects, best.probability);
   if (best.share < bars.least_share) {
     return fmt::format("{} explains {:.0f} % of the excess residual; {:.0f} % are required", named,
-                       100.0 * best.share, 100.0 * bars.least_share);
+                       explained_percent(best.share), 100.0 * bars.least_share);
   }
   if (best.error > bars.largest_error_left) {
     return fmt::format("{} leaves a simulation with an NRMSE of {:.3g} %", named,
@@ -279,11 +279,14 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
           : "";
   return named + on_modes +
          fmt::format(
-             " The unrecorded hub torque, as the filter estimates it, "
-             "is {:.3g} N m rms with the arm file and {:.3g} N m rms with the extended arm; the "
-             "commanded torque is {:.3g} N m rms. Its correlation time is {:.2g} s. NRMSE below is "
-             "that of a simulation.",
-             left.before_N_m, left.after_N_m, left.torque_rms_N_m, left.correlation_time_s);
+             " The unrecorded hub torque, as the filter estimates it, is {:.3g} N m rms with the arm "
+             "file{}; the commanded torque is {:.3g} N m rms. Its correlation time is {:.2g} s. "
+             "NRMSE below is that of a simulation.",
+             left.before_N_m,
+             diagnosis.causes.empty()
+                 ? ""
+                 : fmt::format(" and {:.3g} N m rms with the extended arm", left.after_N_m),
+             left.torque_rms_N_m, left.correlation_time_s);
 }
 
 Table cause_table(const diagnose::Diagnosis& diagnosis) {
@@ -307,7 +310,7 @@ Table cause_table(const diagnose::Diagnosis& diagnosis) {
                                parameter.value,
                                parameter.std_error,
                                parameter.unit,
-                               first ? Cell(100.0 * cause.share) : Cell(std::string()),
+                               first ? Cell(explained_percent(cause.share)) : Cell(std::string()),
                                first ? Cell(cause.confidence) : Cell(std::string())};
       if (has_classes) {
         row.push_back(first ? fmt::format("{}", fmt::join(cause.confusable_with, ", "))
@@ -343,7 +346,8 @@ Table near_miss_table(const diagnose::Diagnosis& diagnosis) {
                {.name = "NRMSE", .unit = "%", .significant_digits = 3}}};
   for (const auto& miss : diagnosis.near_misses) {
     table.add_row(
-        {miss.effects, miss.probability, 100.0 * miss.share, miss.information, 100.0 * miss.error});
+        {miss.effects, miss.probability, explained_percent(miss.share), miss.information,
+         100.0 * miss.error});
   }
   return table;
 }

@@ -12,7 +12,8 @@ namespace flexarm::report {
 namespace {
 
 std::string share_text(double share, double std_error) {
-  return fmt::format("{:.3g} % (standard error {:.2g} %)", 100.0 * share, 100.0 * std_error);
+  return fmt::format("{:.3g} % (standard error {:.2g} %)", explained_percent(share),
+                     100.0 * std_error);
 }
 
 std::string size_text(const diagnose::ForceSize& size) {
@@ -76,7 +77,7 @@ Table missing_force_table(const diagnose::MissingForce& force) {
               {.name = "stated"}}};
   for (std::size_t i = 0; i < force.ports.size(); ++i) {
     const diagnose::PortShare& port = force.ports[i];
-    made.add_row({port_name(port), port.place, 100.0 * port.share, 100.0 * port.std_error,
+    made.add_row({port_name(port), port.place, explained_percent(port.share), 100.0 * port.std_error,
                   100.0 * port.distance_std_error, std::string(i < force.stated ? "yes" : "no")});
   }
   return made;

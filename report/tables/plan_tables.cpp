@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace flexarm::report {
@@ -58,15 +59,19 @@ std::vector<std::string> tied_with(const Plan& plan, std::size_t effect) {
 
 /// The nearest rival that an effect is distinguishable from, with its lead.
 std::string nearest_distinguishable(const Plan& plan, std::size_t effect) {
-  double lead = std::numeric_limits<double>::infinity();
-  std::string name;
-  for (std::size_t b = 0; b < plan.effects.size(); ++b) {
-    const auto& separation = plan.separations[effect][b];
-    if (!separation || separation->lead < diagnose::kToldLead || separation->lead >= lead) continue;
-    lead = separation->lead;
-    name = fmt::format("{} ({:.0f})", label_of(plan, b), lead);
-  }
-  return name;
+  const auto nearest = nearest_rival(plan, effect, diagnose::kToldLead);
+  return nearest ? fmt::format("{} ({:.0f})", label_of(plan, nearest->effect), nearest->lead) : "";
+}
+
+/// Smaller where less can be said of an effect: ties first, then what is not detectable.
+double distinguishability_of(const Plan& plan, std::size_t effect) {
+  const bool has_tie = std::ranges::any_of(plan.ties, [effect](const diagnose::TiedPair& tie) {
+    return tie.truth == effect || tie.rival == effect;
+  });
+  if (has_tie) return -2.0;
+  if (!plan.effects[effect].shows) return -1.0;
+  const auto nearest = nearest_rival(plan, effect);
+  return nearest ? nearest->lead : std::numeric_limits<double>::infinity();
 }
 
 char mark(const Plan& plan, std::size_t truth, std::size_t rival) {
@@ -77,6 +82,16 @@ char mark(const Plan& plan, std::size_t truth, std::size_t rival) {
 }
 
 }  // namespace
+
+std::optional<PlanRival> nearest_rival(const Plan& plan, std::size_t effect, double least_lead) {
+  std::optional<PlanRival> nearest;
+  for (std::size_t b = 0; b < plan.effects.size(); ++b) {
+    const auto& separation = plan.separations[effect][b];
+    if (!separation || separation->lead < least_lead) continue;
+    if (!nearest || separation->lead < nearest->lead) nearest = PlanRival{b, separation->lead};
+  }
+  return nearest;
+}
 
 std::string minimum_detectable(const diagnose::Detection& detection) {
   if (!detection.shows) return "not detectable";
@@ -110,7 +125,10 @@ Table detection_table(const Plan& plan) {
                {.name = "minimum detectable value"},
                {.name = "indistinguishable from"},
                {.name = "closest distinguishable (delta BIC)"}}};
-  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+  std::vector<std::size_t> order(plan.effects.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return distinguishability_of(plan, i); });
+  for (const std::size_t i : order) {
     table.add_row({label_of(plan, i), minimum_detectable(plan.effects[i]),
                    fmt::format("{}", fmt::join(tied_with(plan, i), ", ")),
                    nearest_distinguishable(plan, i)});
@@ -161,6 +179,10 @@ Table separation_table(const Plan& plan) {
                      std::string(separation->lead >= diagnose::kToldLead ? "yes" : "no")});
     }
   }
+  constexpr std::size_t kLeadColumn = 3;
+  std::ranges::stable_sort(table.rows, {}, [](const std::vector<Cell>& row) {
+    return std::get<double>(row[kLeadColumn]);
+  });
   return table;
 }
 
@@ -202,16 +224,20 @@ Table further_run_table(const std::vector<diagnose::NextExperiment>& runs, std::
                {.name = "peak torque", .unit = "N m", .significant_digits = 3},
                {.name = "payload", .unit = "kg", .significant_digits = 3},
                {.name = "resolves"},
-               {.name = "smallest expected delta BIC", .significant_digits = 2}}};
+               {.name = "delta BIC of closest resolved", .significant_digits = 2}}};
   for (std::size_t i = 0; i < std::min(most, runs.size()); ++i) {
     const auto& [further, leads, told, score] = runs[i];
     const diagnose::PlannedRun& run = further.run;
     const bool in_time = run.kind == measured::RunKind::time;
+    double closest = std::numeric_limits<double>::infinity();
+    for (const double lead : leads) {
+      if (lead >= diagnose::kToldLead) closest = std::min(closest, lead);
+    }
     table.add_row({further.like.empty() ? std::string("-") : further.like, further.change,
                    in_time ? response::peak_N_m(diagnose::torque_of(run)) : kMissing,
                    run.payload ? run.payload->mass_kg : kMissing,
                    fmt::format("{} of {}", told, leads.size()),
-                   shown_lead(std::ranges::min(leads))});
+                   std::isfinite(closest) ? closest : kMissing});
   }
   return table;
 }

@@ -1,7 +1,6 @@
 #include "report/tables/prediction_error_table.hpp"
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -9,7 +8,7 @@ namespace flexarm::report {
 
 namespace {
 
-const char* const kPredictionCaption = "Prediction error k steps ahead";
+const char* const kPredictionCaption = "Prediction error k steps ahead, by the Kalman filter";
 
 Cell samples_cell(const std::optional<std::size_t>& samples) {
   if (samples) return static_cast<std::int64_t>(*samples);
@@ -37,11 +36,10 @@ Table prediction_error_table(const std::vector<diagnose::PredictionError>& error
     double after = 0.0;
     double channels = 0.0;
   };
-  std::map<std::size_t, Mean> means;  // by samples, the simulation behind all
+  std::map<std::size_t, Mean> means;  // by samples
   for (const diagnose::PredictionError& error : errors) {
-    const std::size_t samples =
-        error.samples_ahead.value_or(std::numeric_limits<std::size_t>::max());
-    auto [at, is_first] = means.try_emplace(samples, Mean{.ahead_s = error.ahead_s});
+    if (!error.samples_ahead) continue;
+    auto [at, is_first] = means.try_emplace(*error.samples_ahead, Mean{.ahead_s = error.ahead_s});
     Mean& mean = at->second;
     // Runs with different sampling periods have no time in common.
     if (mean.ahead_s != error.ahead_s) mean.ahead_s = 0.0;
@@ -51,9 +49,8 @@ Table prediction_error_table(const std::vector<diagnose::PredictionError>& error
   }
   Table table{std::string(kPredictionCaption) + ", NRMSE, mean of the channels", error_columns()};
   for (const auto& [samples, mean] : means) {
-    const bool is_simulation = samples == std::numeric_limits<std::size_t>::max();
-    table.add_row({samples_cell(is_simulation ? std::nullopt : std::optional(samples)),
-                   ahead_cell(mean.ahead_s), 100.0 * mean.before / mean.channels,
+    table.add_row({samples_cell(samples), ahead_cell(mean.ahead_s),
+                   100.0 * mean.before / mean.channels,
                    100.0 * mean.after / mean.channels});
   }
   return table;

@@ -7,11 +7,12 @@
 
 namespace flexarm::report {
 
-/// NRMSE of predictions k samples ahead, mean of the channels, a row a k and the simulation last;
-/// no rows without any.
+/// NRMSE of predictions k samples ahead, mean of the channels, a row a k; no rows without any. The
+/// filter's own simulation of whole runs is not among them: it begins in other states than the
+/// reported one.
 Table prediction_error_table(const std::vector<diagnose::PredictionError>& errors);
 
-/// The same channel by channel.
+/// The same channel by channel, with the filter's simulation.
 Table channel_prediction_error_table(const std::vector<diagnose::PredictionError>& errors);
 
 }  // namespace flexarm::report

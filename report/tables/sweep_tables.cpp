@@ -126,7 +126,6 @@ std::string caption_of(const compare::SweepFamily& family) {
 
 /// What one of them is called in its table.
 const char* row_name(const compare::SweepFamily& family) {
-  if (!family.is_ordered()) return "track";
   return family.zeros_of ? "zero" : "pole";
 }
 
@@ -143,7 +142,7 @@ Table curves_table(const SweepResult& result, const compare::SweepFamily& family
 }
 
 Table damping_table(const SweepResult& result, const compare::SweepFamily& family) {
-  RangeTable table(result, "Damping ratio -Re s/|s|", "track", "");
+  RangeTable table(result, "Damping ratio -Re s/|s|", "pole", "");
   for (const SweepCurve& curve : result.curves) {
     if (curve.family != family) continue;
     std::vector<double> values;
@@ -230,7 +229,7 @@ std::vector<Table> sweep_mode_tables(const SweepResult& result) {
 
 Table sweep_events_table(const SweepResult& result, std::size_t most) {
   const auto& last = result.task.axes.back();
-  Table table{"Events along the tracks", {{"roots"}, {"track"}, {"event"}, {"other"}}};
+  Table table{"Events along the tracks", {{"roots"}, {"number"}, {"event"}, {"other"}}};
   const bool has_rows = result.task.axes.size() > 1;
   if (has_rows) {
     const auto& first = result.task.axes.front();
@@ -243,9 +242,9 @@ Table sweep_events_table(const SweepResult& result, std::size_t most) {
     std::vector<Cell> row;
     row.reserve(table.columns.size());
     row.emplace_back(compare::label(event.family));
-    row.push_back(count_if(event.track > 0, event.track));
+    row.push_back(count_if(event.track != compare::kNoTrack, event.track));
     row.emplace_back(std::string(word_for(event.kind)));
-    row.push_back(count_if(event.other > 0, event.other));
+    row.push_back(count_if(event.other != compare::kNoTrack, event.other));
     if (has_rows) row.emplace_back(result.task.axes.front().values[event.row]);
     row.emplace_back(event.from_value);
     row.emplace_back(event.to_value);
@@ -257,7 +256,7 @@ Table sweep_events_table(const SweepResult& result, std::size_t most) {
 Table sweep_agreement_table(const SweepResult& result) {
   Table table{"Largest difference from " + result.task.models.front().name,
               {{"quantity"}, {"model"}, error_column("largest difference")}};
-  table.columns.push_back({"no."});
+  table.columns.push_back({"number"});
   for (std::size_t k = 0; k < result.task.axes.size(); ++k) {
     table.columns.push_back({place_column(result, k), unit_of(result.task.axes[k]), kPlaceDigits});
   }
@@ -279,8 +278,7 @@ Table sweep_agreement_table(const SweepResult& result) {
   return table;
 }
 
-std::string sweep_verdict_line(const SweepResult& result) {
-  if (result.agreement.empty()) return "";
+const compare::SweepAgreement* largest_sweep_difference(const SweepResult& result) {
   const compare::SweepAgreement* worst = nullptr;
   const auto severity = [](const compare::SweepAgreement& row) {
     return row.missing > 0 ? INFINITY : row.worst / row.tolerance;
@@ -288,6 +286,12 @@ std::string sweep_verdict_line(const SweepResult& result) {
   for (const auto& row : result.agreement) {
     if (worst == nullptr || severity(row) > severity(*worst)) worst = &row;
   }
+  return worst;
+}
+
+std::string sweep_verdict_line(const SweepResult& result) {
+  const compare::SweepAgreement* worst = largest_sweep_difference(result);
+  if (worst == nullptr) return "";
   if (worst->missing > 0) {
     return fmt::format("DISAGREE: {} by {}: {} of {} missing, the first at {}\n", worst->quantity,
                        worst->model, worst->missing, worst->missing + worst->compared,

@@ -30,6 +30,10 @@ Table sweep_events_table(const compare::SweepResult& result, std::size_t most);
 /// Worst relative difference of each model from the first, and where.
 Table sweep_agreement_table(const compare::SweepResult& result);
 
+/// The difference of all quantities that is largest beside its tolerance, a missing root before
+/// all; null for one model.
+const compare::SweepAgreement* largest_sweep_difference(const compare::SweepResult& result);
+
 /// Whether the models agree, in one line.
 std::string sweep_verdict_line(const compare::SweepResult& result);
 

@@ -152,7 +152,7 @@ Table hub_torque_table(const Symptoms& symptoms) {
                            term.kind == diagnose::HubTorqueKind::saturation;
     table.add_row({std::string(term_name(term.kind)), yes(accepted), term.coefficient,
                    term.std_error, term.unit, has_place ? Cell(term.at) : Cell(kMissing),
-                   100.0 * term.share, term.probability});
+                   explained_percent(term.share), term.probability});
   };
   for (const auto& term : symptoms.hub_torque.terms) add(term, true);
   for (const auto& term : symptoms.hub_torque.left_over) add(term, false);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -22,6 +23,10 @@ void Table::add_row(std::vector<Cell> row) {
                                             caption, row.size(), columns.size()));
   }
   rows.push_back(std::move(row));
+}
+
+double explained_percent(double share) {
+  return 100.0 * std::clamp(share, 0.0, 1.0);
 }
 
 bool is_missing(const Cell& cell) {

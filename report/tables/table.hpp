@@ -44,6 +44,9 @@ struct Table {
   void add_row(std::vector<Cell> row);
 };
 
+/// An explained share in %, from 0 to 100: what makes residuals larger explains nothing of them.
+double explained_percent(double share);
+
 /// True for a missing cell and for NaN.
 bool is_missing(const Cell& cell);
 

@@ -65,7 +65,45 @@ TEST_F(FigureOptionsOf, AreRefusedInOneLineBeforeAnythingIsWritten) {
     EXPECT_THAT(ended.errors, StartsWith("--font-size = "));
     EXPECT_THAT(ended.errors, HasSubstr("from 4 to 72"));
   }
+  expect_refused(modes({"--out", "out", "--magnitude", "db"}),
+                 "--magnitude db: must be absolute or dB");
+  expect_refused(modes({"--out", "out", "--frequency-unit", "rpm"}),
+                 "--frequency-unit rpm: must be Hz or rad/s");
+  expect_refused(modes({"--out", "out", "--nyquist", "minus-one,circle"}),
+                 "--nyquist circle: must be minus-one or negative-frequencies");
   EXPECT_THAT(names_in(), Not(Contains("out")));
+}
+
+TEST_F(FigureOptionsOf, UnitsAreThoseOfEveryBodeDiagram) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"response", "rig.toml"}, {"compare", "rig.toml", "--quick"}}) {
+    std::vector<std::string> with = command;
+    const std::string picture = command.front() + "/bode-hub_angle.svg";
+    with.insert(with.end(), {"--sensor", "hub_angle", "--out", command.front(), "--force"});
+    ASSERT_EQ(run(with).status, 0);
+    const std::string absolute = text_of(picture);
+    EXPECT_THAT(absolute, HasSubstr("[rad/(N m)]"));
+    EXPECT_THAT(absolute, HasSubstr("frequency [Hz]"));
+    with.insert(with.end(), {"--magnitude", "dB", "--frequency-unit", "rad/s"});
+    ASSERT_EQ(run(with).status, 0);
+    const std::string decibel = text_of(picture);
+    EXPECT_THAT(decibel, HasSubstr("[dB re 1 rad/(N m)]"));
+    EXPECT_THAT(decibel, HasSubstr("frequency [rad/s]"));
+  }
+}
+
+TEST_F(FigureOptionsOf, NyquistDiagramsShowMoreOnRequest) {
+  write("damped.toml", text_of("rig.toml") + "\n[effects.structural_damping]\ntime = 1e-4\n");
+  const std::vector<std::string> command = {"response", "damped.toml", "--sensor", "hub_angle",
+                                            "--out",    "out",         "--force"};
+  ASSERT_EQ(run(command).status, 0);
+  EXPECT_THAT(text_of("out/nyquist-hub_angle.svg"), Not(HasSubstr("negative frequencies")));
+  auto with = command;
+  with.insert(with.end(), {"--nyquist", "minus-one,negative-frequencies"});
+  ASSERT_EQ(run(with).status, 0);
+  const std::string svg = text_of("out/nyquist-hub_angle.svg");
+  EXPECT_THAT(svg, HasSubstr("negative frequencies"));
+  EXPECT_THAT(svg, HasSubstr(">−1<"));
 }
 
 TEST_F(FigureOptionsOf, NeedAFolder) {
@@ -73,13 +111,17 @@ TEST_F(FigureOptionsOf, NeedAFolder) {
   expect_refused(modes({"--figure-size", "800x600"}), "--figure-size: needs --out FOLDER");
   expect_refused(modes({"--font", "Serif"}), "--font: needs --out FOLDER");
   expect_refused(modes({"--font-size", "12"}), "--font-size: needs --out FOLDER");
+  expect_refused(modes({"--magnitude", "dB"}), "--magnitude: needs --out FOLDER");
+  expect_refused(modes({"--frequency-unit", "Hz"}), "--frequency-unit: needs --out FOLDER");
+  expect_refused(modes({"--nyquist", "minus-one"}), "--nyquist: needs --out FOLDER");
 }
 
 TEST_F(FigureOptionsOf, AreThoseOfEveryCommandThatDraws) {
   for (const char* command :
        {"compare", "response", "modes", "sweep", "simulate", "identify", "diagnose", "plan"}) {
     const std::string help = run({command, "--help"}).output;
-    for (const char* option : {"--figure-format", "--figure-size", "--font", "--font-size"}) {
+    for (const char* option : {"--figure-format", "--figure-size", "--font", "--font-size",
+                               "--magnitude", "--frequency-unit", "--nyquist"}) {
       EXPECT_THAT(help, HasSubstr(option)) << command;
     }
   }

@@ -73,7 +73,9 @@ class Checker {
 
   std::vector<std::string> faults() {
     const Json& d = page_.document;
-    keys(d, "document", {"schema", "program", "command", "title", "verdict", "facts", "sections"},
+    keys(d, "document",
+         {"schema", "program", "command", "title", "date", "verdict", "results", "facts",
+          "next_step", "sections"},
          {"headline"});
     if (!faults_.empty()) return faults_;
     require(d["schema"] == "flexarm.page/1", "schema");
@@ -82,8 +84,11 @@ class Checker {
     one_of(d["verdict"]["status"], {"good", "partial", "bad", "neutral"}, "verdict.status");
     text(d["verdict"]["word"], "verdict.word");
     text(d["verdict"]["sentence"], "verdict.sentence");
+    facts(d["results"], "results");
     facts(d["facts"], "facts");
-    require(d["facts"].size() <= 6, "more than six facts");
+    text(d["next_step"], "next_step");
+    require(std::regex_match(d["date"].get<std::string>(), std::regex("\\d{4}-\\d\\d-\\d\\d")),
+            "date");
     if (d.contains("headline")) block(d["headline"], "headline");
     for (const Json& section : d["sections"]) {
       keys(section, "section", {"id", "title", "text", "blocks"});
@@ -228,7 +233,7 @@ class Checker {
     std::set<std::string> seen;
     require(!block["views"].empty(), place + " has no view");
     for (const Json& view : block["views"]) {
-      keys(view, place + " view", {"labels", "facts", "panels"});
+      keys(view, place + " view", {"labels", "facts", "panels"}, {"shown"});
       require(view["labels"].size() == block["choices"].size(), place + ": labels for choices");
       require(seen.insert(view["labels"].dump()).second,
               place + ": two views " + view["labels"].dump());
@@ -364,7 +369,7 @@ class Checker {
         {"curves", {{"x", "choices", "views"}, &Checker::curves}},
         {"scatter", {{"choices", "views"}, &Checker::scatter}},
         {"map", {{"x", "y", "points"}, &Checker::map}},
-        {"ranking", {{"items"}, &Checker::ranking}},
+        {"ranking", {{"chosen_word", "items"}, &Checker::ranking}},
         {"sweep",
          {{"parameter", "values", "x", "y", "frequency", "tracks", "events"}, &Checker::sweep}}};
     const auto kind = kinds.find(block.value("kind", ""));

@@ -1,5 +1,6 @@
 #include "tests/app/flexarm_fixture.hpp"
 #include "tests/app/page_contract.hpp"
+#include "tests/environment_variable.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@ namespace flexarm::testing_app {
 namespace {
 
 using Json = nlohmann::json;
+using testing_environment::EnvironmentVariable;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -81,7 +83,15 @@ TEST_F(Report, OfADiagnosisShowsTheCauseAndTheNumbersOfTheJson) {
   EXPECT_EQ(ranking["items"][0]["label"], "Payload mass");
   EXPECT_EQ(ranking["items"][0]["share"], told["causes"][0]["confidence"]);
   EXPECT_EQ(ranking["items"][0]["chosen"], true);
-  EXPECT_EQ(ranking["items"].back()["share"], told["something_else"]);
+  EXPECT_THAT(ranking["items"], SizeIs(told["causes"].size())) << "and nothing else";
+
+  // The first screen has the cause with its value, what is left, and the next step.
+  ASSERT_THAT(page.document["results"], SizeIs(1));
+  EXPECT_EQ(page.document["results"][0]["label"], "Payload mass, mass");
+  EXPECT_THAT(page.document["results"][0]["value"].get<std::string>(),
+              testing::MatchesRegex("0\\.0[0-9]+ ± .* kg, probability .*"));
+  EXPECT_THAT(page.document["facts"][0]["value"].get<std::string>(), HasSubstr(" % → "));
+  EXPECT_THAT(page.document["next_step"].get<std::string>(), HasSubstr("extended arm"));
 
   const auto mass = column_of(page.block("cause-table"), "value");
   ASSERT_THAT(mass, SizeIs(1));
@@ -123,7 +133,14 @@ TEST_F(Report, OfADiagnosisShowsTheCauseAndTheNumbersOfTheJson) {
     worst_run = channel["run"];
   }
   EXPECT_EQ(overlay["views"][0]["labels"][0], worst_run);
-  EXPECT_THAT(page.document["headline"]["title"].get<std::string>(), HasSubstr(worst_run));
+  EXPECT_EQ(page.document["headline"]["id"], "overlay");
+  // The whole run is in the page, a part of it is in view first; the torque is below.
+  const Json first = overlay["views"][0];
+  const Json torque = first["panels"].back();
+  EXPECT_EQ(torque["y"]["label"], "torque");
+  EXPECT_EQ(torque["series"][0]["data"]["y"]["count"], 1500);
+  EXPECT_EQ(first["panels"][0]["series"][0]["data"]["y"]["count"], 1500);
+  EXPECT_NEAR(first["shown"][1].get<double>() - first["shown"][0].get<double>(), 499 * 0.002, 1e-9);
 
   for (const char* id : {"correlation", "response", "map-hub-angle", "map-tip-acceleration",
                          "statements", "nrmse-by-channel", "evidence"}) {
@@ -248,6 +265,27 @@ TEST_F(Report, OfAPlanHasTheEffectsOfTheJson) {
   EXPECT_THAT(page.document["headline"]["items"], SizeIs(3));
   EXPECT_THAT(page.block("effects")["rows"], SizeIs(json()["effects"].size()));
   EXPECT_THAT(page.block("standard-errors")["rows"], SizeIs(testing::Ge(1U)));
+}
+
+TEST_F(Report, OfASimulationThatIsRightHasNoExtendedArm) {
+  write("true.toml", kArmOfReport);
+  const Ended ended = run({"simulate", "true.toml", "--duration", "2", "--period", "0.002",
+                           "--sensor", "hub_angle", "--noise", "0.01", "--excitation",
+                           "random:rms=0.05,to=60,id=random", "--out", "right"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  const ReadPage page =
+      page_of({"diagnose", "right/measurement.toml", "--effects", "payload_mass,time_delay"});
+  EXPECT_EQ(page.document["verdict"]["word"], "adequate");
+  EXPECT_THAT(page.document["results"], IsEmpty());
+  EXPECT_EQ(page.document.dump().find("extended arm"), std::string::npos);
+}
+
+TEST_F(Report, HasTheDateOfTheRunOrTheOneAskedFor) {
+  write("arm.toml", kArmOfReport);
+  const EnvironmentVariable epoch("SOURCE_DATE_EPOCH", "86400");
+  const ReadPage page =
+      page_of({"sweep", "arm.toml", "--over", "payload.mass=0:0.2:3", "--poles", "2"});
+  EXPECT_EQ(page.document["date"], "1970-01-02");
 }
 
 TEST_F(Report, IsRefusedBeforeTheWork) {

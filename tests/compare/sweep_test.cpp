@@ -2,6 +2,7 @@
 #include "compare/features.hpp"
 #include "compare/sweeps/sweep_checkpoint.hpp"
 #include "compare/sweeps/sweep_result.hpp"
+#include "effects/registry/vocabulary.hpp"
 #include "response/settings.hpp"
 #include "tests/compare/models.hpp"
 
@@ -130,6 +131,31 @@ TEST_F(Sweep, TheImaginaryTipZeroOfAPayloadInertiaCrossesTheRealOnes) {
   ASSERT_EQ(result.events.size(), 1);
   EXPECT_EQ(result.events[0].kind, Kind::appears_beyond);
   EXPECT_EQ(result.events[0].track, 5);
+}
+
+TEST_F(Sweep, DampedPolesHaveTheNumbersOfTheUndampedOnesBesideThem) {
+  // A spring holds the hub: its lowest pole is no flexible one. Friction that grows makes two real
+  // poles of it, and of another one.
+  auto task = task_over({"effects.hub_viscous_friction.coefficient=log:1e-3:1:9"});
+  effects::put(task.arm, "hub_spring", {{"stiffness", 5.0}});
+  task.questions.modes = true;
+  const auto result = sweep(task);
+  std::vector<int> numbers;
+  for (const auto& curve : result.curves) {
+    if (!curve.family.damped) continue;
+    numbers.push_back(curve.number);
+    if (curve.number < 1 || curve.number > task.questions.poles) continue;
+    const auto& undamped = result.curves[static_cast<std::size_t>(curve.number) - 1];
+    const double omega = undamped.s_rad_per_s[0][0]->imag();
+    EXPECT_NEAR(std::abs(*curve.s_rad_per_s[0][0]), omega, 0.01 * omega);
+  }
+  EXPECT_EQ(numbers.front(), 0);
+  EXPECT_TRUE(std::ranges::is_sorted(numbers));
+  EXPECT_EQ(std::ranges::adjacent_find(numbers), numbers.end()) << "none twice";
+  for (const auto& event : result.events) {
+    if (!event.family.damped) continue;
+    EXPECT_TRUE(std::ranges::find(numbers, event.track) != numbers.end());
+  }
 }
 
 TEST_F(Sweep, TracksAreContinuousWhateverTheGrid) {

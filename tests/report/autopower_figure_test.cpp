@@ -58,13 +58,13 @@ TEST(AutopowerFigure, HasAPanelForTheTorqueAndEachSensorWithUnits) {
 TEST(AutopowerFigure, MarksFeaturesOnTheirLineWithTheirFrequency) {
   const Figure figure = autopower_figure(small_estimate(), small_features());
   const Panel& panel = figure.stacks[0].panels[1];
-  const Series* peaks = find_series(panel, "peak [Hz]");
+  const Series* peaks = find_series(panel, "peak");
   ASSERT_NE(peaks, nullptr);
   EXPECT_THAT(peaks->x, ElementsAre(3.0));
   EXPECT_THAT(peaks->y, ElementsAre(DoubleNear(100.0, 1e-10)));
   ASSERT_EQ(panel.annotations.size(), 1U);
   EXPECT_EQ(panel.annotations[0].text, "3.100");
-  EXPECT_EQ(find_series(figure.stacks[0].panels[2], "peak [Hz]"), nullptr);
+  EXPECT_EQ(find_series(figure.stacks[0].panels[2], "peak"), nullptr);
 }
 
 TEST(AutopowerFigure, DrawsAnalyticalPolesWithinTheFrequencies) {
@@ -135,7 +135,7 @@ TEST(AutopowerFigure, OfTheArmHasEveryLabelToItself) {
       EXPECT_EQ(overlapping_labels(figure), 0);
       const std::string svg = to_svg(figure);
       for (const char* text : {"frequency [Hz]", "density [(rad/s)²/Hz]", "strain at 0.05 m",
-                               "analytical pole", "peak [Hz]", "minimum [Hz]"}) {
+                               "analytical pole", "peak", "minimum"}) {
         EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>"));
       }
     }

@@ -164,5 +164,18 @@ TEST(SearchText, IsEmptyWhereAllWasSearched) {
   EXPECT_EQ(search_text(made), "Excluded from the search: gravity.");
 }
 
+TEST(DiagnosisTables, AShareIsFromNothingToAll) {
+  EXPECT_EQ(explained_percent(-0.5), 0.0);
+  EXPECT_EQ(explained_percent(0.25), 25.0);
+  EXPECT_EQ(explained_percent(1.2), 100.0);
+  Diagnosis made = with_gain(Verdict::unexplained);
+  made.near_misses = {{"air_damping", 0.9, -0.5, 12.0, 0.04}};
+  EXPECT_EQ(std::get<double>(near_miss_table(made).rows.at(0).at(2)), 0.0);
+  made.causes.emplace_back().effect = "air_damping";
+  made.causes[0].parameters.push_back({"coefficient", 1.0, 0.1, "N s/m^2"});
+  made.causes[0].share = -0.5;
+  EXPECT_EQ(std::get<double>(cause_table(made).rows.at(0).at(5)), 0.0);
+}
+
 }  // namespace
 }  // namespace flexarm::report

@@ -195,7 +195,7 @@ TEST(FrequencyResponseFigure, OfTheArmHasFitModelAndFeatures) {
   const std::string svg = to_svg(figure);
   for (const char* text : {"magnitude [m/s²/(N m)]", "phase [deg]", "coherence", "frequency [Hz]",
                            "measured", "95 % interval", "fit", "analytical", "analytical pole",
-                           "peak [Hz]", "coherence threshold"}) {
+                           "peak", "coherence threshold"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }
 }

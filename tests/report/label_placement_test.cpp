@@ -75,6 +75,14 @@ TEST(LabelPlacement, GoesOutOfTheWayOfALine) {
   EXPECT_GT(text.bottom_px, line_px);
 }
 
+TEST(LabelPlacement, APeakAtTheUpperEdgeIsLabelledBesideIt) {
+  Figure figure = with_labels({{50.0, 1000.0, "50.00", TextPlace::above}});
+  place_labels(figure);
+  ASSERT_EQ(figure.stacks[0].panels[0].annotations.size(), 1U);
+  const PanelBox panel = lay_out(figure).boxes[0][0];
+  EXPECT_LE(boxes_of(figure)[0].top_px, panel.top_px + panel.text.line_px());
+}
+
 TEST(LabelPlacement, TakesAwayWhatHasNoPlace) {
   Figure figure =
       with_labels(std::vector<Annotation>(40, Annotation{50.0, 500.0, "50.00", TextPlace::above}));

@@ -28,7 +28,6 @@ NyquistPlot plot(std::size_t count) {
   double diameter = 20.0;
   for (std::size_t i = 0; i < count; ++i, diameter /= 100.0) {
     NyquistCircle circle{.label = "pole " + std::to_string(i + 1),
-                         .remark = "ζ = 0.01",
                          .values = {},
                          .at_pole = {0.0, -diameter},
                          .below = {diameter / 2, -diameter / 2},
@@ -79,6 +78,37 @@ TEST(NyquistFigure, EachCircleFillsAPanelToScale) {
   EXPECT_TRUE(figure.stacks[1].square);
 }
 
+TEST(NyquistFigure, APanelHoldsItsValuesHoweverFarTheyAreFromItsHalfPowerPoints) {
+  NyquistPlot one = plot(1);
+  // Of a pole whose neighbours are near: the background carries the response away.
+  one.circles[0].values = {{40.0, 3.0}, {41.0, 2.0}, {43.0, -60.0}};
+  const Panel panel = nyquist_figure(one).stacks[1].panels[0];
+  for (const Complex& value : one.circles[0].values) {
+    EXPECT_GT(value.real(), *panel.x->minimum);
+    EXPECT_LT(value.real(), *panel.x->maximum);
+    EXPECT_GT(value.imag(), *panel.y.minimum);
+    EXPECT_LT(value.imag(), *panel.y.maximum);
+  }
+}
+
+TEST(NyquistFigure, NegativeFrequenciesAndMinusOneAreShownOnRequest) {
+  NyquistPlot small = plot(1);
+  for (Complex& value : small.response) value *= 1e-3;
+  const auto without = nyquist_figure(small).stacks[0].panels[0].series;
+  small.marks = {.minus_one = true, .negative_frequencies = true};
+  const Panel panel = nyquist_figure(small).stacks[0].panels[0];
+  EXPECT_EQ(panel.series.size(), without.size() + 2 + 2) << "decades up to 1 are marked, too";
+  const auto locus = std::ranges::find(panel.series, "response", &Series::name);
+  const auto negative = std::ranges::find(panel.series, "negative frequencies", &Series::name);
+  ASSERT_NE(negative, panel.series.end());
+  EXPECT_EQ(negative->x, locus->x);
+  EXPECT_EQ(negative->y.at(7), -locus->y.at(7));
+  const auto minus_one = std::ranges::find(panel.series, "−1", &Series::name);
+  ASSERT_NE(minus_one, panel.series.end());
+  EXPECT_LT(minus_one->x.at(0), *std::ranges::min_element(locus->x));
+  EXPECT_EQ(minus_one->y.at(0), 0.0);
+}
+
 TEST(NyquistFigure, NoMoreThanFourCirclesAreDrawn) {
   std::size_t panels = 0;
   const Figure figure = nyquist_figure(plot(6));
@@ -95,7 +125,7 @@ TEST(NyquistFigure, NothingToDrawIsRefused) {
 
 TEST(NyquistFigure, DrawsEveryPanelWithItsOwnAxes) {
   const std::string svg = to_svg(nyquist_figure(plot(4)));
-  for (const char* text : {"Re G [rad/(N m)]", "Im G [10⁻³ rad/(N m)]", "pole 4", "ζ = 0.01",
+  for (const char* text : {"Re G [rad/(N m)]", "Im G [10⁻³ rad/(N m)]", "pole 4",
                            "all frequencies, modulus compressed", "half-power points"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }

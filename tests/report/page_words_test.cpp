@@ -37,7 +37,16 @@ TEST(PageWords, UnitsArePrinted) {
 TEST(PageWords, WhatIsNoNumberIsADash) {
   EXPECT_EQ(percent_of(NAN), "–");
   EXPECT_EQ(percent_of(0.605), "60.5 %");
+  EXPECT_EQ(percent_of(13.83), "1383 %");
   EXPECT_EQ(number_of(INFINITY, 3), "–");
+}
+
+TEST(PageWords, AnEstimateHasTheDigitsOfItsStandardError) {
+  EXPECT_EQ(estimate_of(0.00215408712345, 5.4e-8, "N m"), "0.002154087 ± 5.4e-08 N m");
+  EXPECT_EQ(estimate_of(786.4321, 2.34, "N m/rad"), "786.4 ± 2.3 N m/rad");
+  EXPECT_EQ(estimate_of(0.3, 0.9, "1"), "0.3 ± 0.9");
+  EXPECT_EQ(estimate_of(1.0 / 3.0, NAN, "s"), "0.333333 ± – s");
+  EXPECT_EQ(estimate_of(-12.0, 1e-30, "m/s^2"), "-12 ± 1e-30 m/s²");
 }
 
 TEST(PageTable, HasTheDigitsOfTheTextAndNoEmptyColumn) {

@@ -55,7 +55,7 @@ TEST(StabilisationFigure, LabelsFittedPolesInTheBand) {
       stabilisation_figure(chart(), {.fitted_poles_Hz = {12.1, 12.2, 12.3, 70.0}});
   const auto& labels = figure.stacks[0].panels[0].annotations;
   ASSERT_EQ(labels.size(), 3U);
-  EXPECT_EQ(labels[0].text, "12.100");
+  EXPECT_EQ(labels[0].text, "12.10");
   EXPECT_EQ(overlapping_labels(figure), 0);
 }
 
@@ -96,7 +96,7 @@ TEST(StabilisationFigure, OfTheArmHasAColumnAtEachFittedPole) {
   }
   const std::string svg = to_svg(figure);
   EXPECT_LT(svg.size(), kMostBytes);
-  for (const char* text : {"order of the denominator", "frequency [Hz]", "fitted pole [Hz]",
+  for (const char* text : {"order of the denominator", "frequency [Hz]", "fitted pole",
                            "mean |H|, log", "stable pole"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }

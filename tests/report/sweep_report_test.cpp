@@ -55,9 +55,10 @@ SweepResult sample(bool damped = true) {
   }
   result.modes.hub_slope = {{{4.0, 3.5, 3.0}}, {{4.0, 3.5, 3.0}}};
   result.modes.tip_value_m = {{{-0.6, -0.5, -0.4}}, {{-0.6, -0.5, -0.4}}};
-  result.events = {{SweepEvent::Kind::appears_beyond, tip_zeros, 2, 0, 0, 0.0, 1e-5},
+  result.events = {{SweepEvent::Kind::appears_beyond, tip_zeros, 2, compare::kNoTrack, 0, 0.0, 1e-5},
                    {SweepEvent::Kind::meet, tip_zeros, 1, 3, 0, 1e-4, 2e-4},
-                   {SweepEvent::Kind::ambiguous, tip_zeros, 0, 0, 0, 1e-4, 2e-4}};
+                   {SweepEvent::Kind::ambiguous, tip_zeros, compare::kNoTrack, compare::kNoTrack, 0, 1e-4,
+                    2e-4}};
   result.agreement = {{"poles", "fem", 0.01, 1, 1, 1e-9, 3, 0, 0},
                       {"tip_acceleration zeros", "fem", 0.0, 0, 1, 1e-9, 2, 3, 2}};
   return result;
@@ -82,12 +83,12 @@ TEST(SweepTables, ShowFirstLastAndExtremesNotEveryPoint) {
   const auto tables = sweep_range_tables(sample());
   ASSERT_EQ(tables.size(), 4);
   EXPECT_EQ(to_csv(tables[1]),
-            "track,axis,first [rad/s],last [rad/s],lowest [rad/s],at [kg m^2],highest [rad/s],"
+            "zero,axis,first [rad/s],last [rad/s],lowest [rad/s],at [kg m^2],highest [rad/s],"
             "at [kg m^2]\n"
             "1,\"real, complex\",57,50,50,0.0002,58,0.0001\n"
             "2,imaginary,,200,200,0.0002,300,0.0001\n");
   EXPECT_EQ(to_csv(tables[3]),
-            "track,first,last,lowest,at [kg m^2],highest,at [kg m^2]\n"
+            "pole,first,last,lowest,at [kg m^2],highest,at [kg m^2]\n"
             "1,0.6,1,0.6,0,1,0.0002\n");
   EXPECT_EQ(sweep_range_tables(sample(false)).size(), 2);
   EXPECT_EQ(sweep_mode_tables(sample()).size(), 2);

@@ -136,12 +136,11 @@ TEST(OverlayFigure, ShowsTheWorstSignalOfHubAndTipFirst) {
   const OverlayCase worse_angle(
       {{"hub_velocity", 0.2}, {"hub_angle", 0.4}, {"tip_acceleration", 0.3}});
   const auto panels = worse_angle.figure()->stacks.front().panels;
-  ASSERT_EQ(panels.size(), 4U);
+  ASSERT_EQ(panels.size(), 5U);
   EXPECT_EQ(panels[0].y.label, "hub angle");
   EXPECT_EQ(panels[2].y.label, "tip acceleration");
-  EXPECT_DOUBLE_EQ(panels[0].series.front().x.front(), 0.002 * 1200);  // where it is furthest off
-  EXPECT_EQ(panels[0].series.size(), 2U);                              // no causes, no second curve
-  EXPECT_THAT(worse_angle.figure()->title, HasSubstr("random: 2.4 to 3.398 s of 0 to 3.998 s"));
+  EXPECT_EQ(panels[4].y.label, "torque");
+  EXPECT_EQ(panels[0].series.size(), 2U);  // no causes, no second curve
   const OverlayCase worse_tip(
       {{"hub_velocity", 0.2}, {"hub_angle", 0.1}, {"tip_acceleration", 0.3}});
   const auto others = worse_tip.figure()->stacks.front().panels;
@@ -149,15 +148,25 @@ TEST(OverlayFigure, ShowsTheWorstSignalOfHubAndTipFirst) {
   EXPECT_EQ(others[2].y.label, "hub velocity");
 }
 
+TEST(OverlayFigure, HasTheWholeRunAndBesideItWhereTheBaselineIsFurthestOff) {
+  const Figure figure = *OverlayCase({{"hub_angle", 0.4}}).figure();
+  ASSERT_EQ(figure.stacks.size(), 2U);
+  EXPECT_EQ(figure.stacks[0].panels[0].series.front().x.size(), 2000U);
+  const Panel& lens = figure.stacks[1].panels[0];
+  EXPECT_DOUBLE_EQ(lens.series.front().x.front(), 0.002 * 1200);
+  EXPECT_EQ(lens.series.front().x.size(), kDrawnSamples);
+  EXPECT_THAT(figure.title, HasSubstr("random; on the right 2.4 to 3.398 s"));
+}
+
 TEST(OverlayFigure, ResidualsBeforeAndAfterHaveScalesOfTheirOwn) {
   OverlayCase explained({{"hub_angle", 0.4}, {"tip_acceleration", 0.3}});
   explained.diagnosis.causes.emplace_back();
   const Figure figure = *explained.figure();
   const auto& panels = figure.stacks.front().panels;
-  ASSERT_EQ(panels.size(), 6U);
+  ASSERT_EQ(panels.size(), 7U);
   EXPECT_EQ(panels[0].series.size(), 3U);
-  EXPECT_THAT(panels[1].note, HasSubstr("residual of the arm file"));
-  EXPECT_THAT(panels[2].note, HasSubstr("residual of the extended arm"));
+  EXPECT_THAT(panels[1].note, HasSubstr("arm file, NRMSE"));
+  EXPECT_THAT(panels[2].note, HasSubstr("extended arm, NRMSE"));
   const auto boxes = lay_out(figure).boxes[0];
   EXPECT_LT(boxes[2].y.to, 0.01 * boxes[1].y.to);
   EXPECT_THAT(boxes[2].note, HasSubstr("NRMSE of the run 0.1 %"));

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -141,6 +142,31 @@ TEST(EffectsResponse, TheLowestPoleOfAnArmThatIsHeldIsAResonance) {
   const Complex centre = (circle.below + circle.above) / 2.0;
   const double radius = std::abs(circle.above - circle.below) / 2.0;
   EXPECT_NEAR(std::abs(circle.at_pole - centre), radius, 0.05 * radius);
+}
+
+TEST(EffectsResponse, AResonanceReachesTwoHalfWidthsHoweverNearItsNeighboursAre) {
+  arm::Arm arm = damped_arm();
+  effects::put(arm, "structural_damping", {{"time", 5e-3}});
+  ResponseOptions options;
+  options.sensors = {{arm::SensorKind::hub_angle}};
+  options.modes = 2;
+  const auto study = study_response(arm, make_formulation("exact_tf", arm, 4), options);
+  ASSERT_FALSE(study.resonances[0].empty());
+  bool has_overlap = false;
+  for (const Resonance& resonance : study.resonances[0]) {
+    const double half_width_Hz = std::abs(resonance.pole_rad_per_s.real()) / 6.283185307;
+    const double pole_Hz = resonance.pole_rad_per_s.imag() / 6.283185307;
+    has_overlap = has_overlap || half_width_Hz > 0.4 * pole_Hz;
+    constexpr double kPoint = 0.98;  // the points are at equal angles: the last one is within
+    EXPECT_LE(resonance.frequency_Hz.front(),
+              std::max(0.52 * pole_Hz, pole_Hz - 2.0 * kPoint * half_width_Hz));
+    EXPECT_GE(resonance.frequency_Hz.back(), pole_Hz + 2.0 * kPoint * half_width_Hz);
+    const auto within = std::ranges::count_if(resonance.frequency_Hz, [&](double f_Hz) {
+      return std::abs(f_Hz - pole_Hz) <= half_width_Hz;
+    });
+    EXPECT_GT(within, 100) << "points of the half circle between the half-power points";
+  }
+  EXPECT_TRUE(has_overlap) << "no case of the kind";
 }
 
 TEST(EffectsResponse, WhatHoldsTheHubSetsThePowerOfS) {

@@ -35,11 +35,16 @@ export interface PageDocument {
   program: string; // "flexarm 0.1.0"
   command: string; // the command line that made the page
   title: string; // "Diagnosis of bench/measurement.toml"
+  date: string; // of the run of the program, "2026-11-29"; may be empty
   verdict: Verdict;
+  /** What came out, each with its value: "Coulomb friction, torque" "0.00215 ± 5e-08 N m". */
+  results: Fact[];
   /** The picture of the first screen. */
   headline?: Block;
-  /** The numbers beside it, at most six. */
+  /** What is left, and other numbers of the first screen. */
   facts: Fact[];
+  /** What to do next, a sentence; may be empty. */
+  next_step: string;
   sections: Section[];
 }
 
@@ -94,7 +99,7 @@ export type Role =
   | "bound" // confidence bounds, noise level
   | "noise"
   | "coherence"
-  | "first" // formulations, runs, tracks: distinguishable, without an order
+  | "first" // formulations, tracks: distinguishable, without an order, like none of those above
   | "second"
   | "third"
   | "fourth"
@@ -114,6 +119,8 @@ export interface CurvesView {
   labels: string[]; // one for each of `choices`
   facts: Fact[]; // "fit" "99.5 %"
   panels: CurvesPanel[];
+  /** The part of x that is in view first; empty: the whole range. */
+  shown?: [number, number];
 }
 
 export interface CurvesPanel {
@@ -187,9 +194,10 @@ export interface MapPoint {
   details: Fact[];
 }
 
-/** Causes by probability. */
+/** Bars, each a whole by itself: causes by probability. */
 export interface RankingBlock extends BlockBase {
   kind: "ranking";
+  chosen_word: string; // "identified": beside the chosen ones
   items: {
     label: string;
     /** 0 to 1: length of the bar. */

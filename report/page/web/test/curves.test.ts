@@ -64,6 +64,32 @@ test("plus, minus and Escape zoom at the cursor and reset", () =>
     assert.ok(await block.locator(".reset").isHidden());
   }));
 
+test("a lens on the whole run shows a part of it first, and is dragged along", () =>
+  opened(diagnosis, async (page) => {
+    const { block } = await plotOf(page, "headline");
+    assert.deepEqual(await rangeInView(page, block), [2, 4]);
+    const overview = block.locator(".overview");
+    const [whole, lens] = [await overview.boundingBox(), await overview.locator(".lens").boundingBox()];
+    assert.ok(whole && lens);
+    assert.ok(Math.abs(lens.width / whole.width - 2 / kLast_s) < 0.01, "the lens is as long as the part");
+    const y = whole.y + whole.height / 2;
+    const second = whole.width / kLast_s;
+    await page.mouse.move(lens.x + lens.width / 2, y);
+    await page.mouse.down();
+    await page.mouse.move(lens.x + lens.width / 2 + 3 * second, y, { steps: 4 });
+    await page.mouse.up();
+    const [first, last] = await rangeInView(page, block);
+    assert.ok(Math.abs(first - 5) < 0.03 && Math.abs(last - 7) < 0.03, `${first} to ${last}`);
+    await page.mouse.move(whole.x + 7 * second, y);
+    await page.mouse.down();
+    await page.mouse.move(whole.x + 9 * second, y, { steps: 4 });
+    await page.mouse.up();
+    const wider = await rangeInView(page, block);
+    assert.ok(Math.abs(wider[0] - 5) < 0.03 && Math.abs(wider[1] - 9) < 0.03, `${wider[0]} to ${wider[1]}`);
+    await overview.dblclick();
+    assert.deepEqual(await rangeInView(page, block), [0, Number(kLast_s.toPrecision(4))]);
+  }));
+
 test("a drag zooms all panels of the block; a double click shows the whole again", () =>
   opened(diagnosis, async (page) => {
     const { block, over } = await plotOf(page, "overlay");

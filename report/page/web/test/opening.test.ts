@@ -23,10 +23,13 @@ test("the first screen has the verdict, its facts and the headline picture", () 
     const verdict = page.locator(".verdict.good");
     assert.match((await verdict.locator(".word").textContent()) ?? "", /explained/);
     assert.match((await verdict.locator(".sentence").textContent()) ?? "", /coulomb_friction/);
-    assert.equal(await verdict.locator("dt").count(), 4);
+    assert.equal(await verdict.locator(".facts dt").count(), 3);
+    assert.match((await verdict.locator(".results").textContent()) ?? "", /Coulomb friction, torque0\.008.* N m/);
+    assert.match((await verdict.locator(".next").textContent()) ?? "", /Next step: Simulate/);
+    assert.equal(await page.locator("header time").textContent(), "2026-11-29");
     const headline = page.locator("#headline");
     const box = await headline.boundingBox();
-    assert.ok(box && box.y + box.height < 1000, "the picture is on the first screen");
+    assert.ok(box && box.y + box.height < 1000, `the picture is on the first screen: ${box?.y} ${box?.height}`);
     for (const role of ["before", "after", "measured", "residual-before", "residual-after", "bound"]) {
       assert.ok((await pixelsOf(headline, `role-${role}`)) > 30, `${role} is drawn`);
     }
@@ -79,7 +82,7 @@ async function processTime_s(page: Page): Promise<number> {
 /** Runs in the page, before its script: notes when the picture of the first screen is drawn. */
 function notePictureDrawn(): void {
   const look = () => {
-    const isDrawn = document.querySelectorAll("#headline canvas").length === 3;
+    const isDrawn = document.querySelectorAll("#headline canvas:not(.overview canvas)").length === 3;
     if (!isDrawn) return requestAnimationFrame(look);
     return requestAnimationFrame(() =>
       setTimeout(() => Object.assign(window, { drawn_ms: performance.now() })),

@@ -34,7 +34,7 @@ export function curvesBlock(block: CurvesBlock, arrays: Arrays): BlockContent {
   const draw = () => {
     const view = block.views[shown];
     if (!view) return;
-    const range = plot?.zoomed;
+    const range = plot?.chosen;
     plot?.destroy();
     plot = new ViewPlot(block, view, arrays, hidden, {
       cursor: (text, spoken) => {
@@ -71,7 +71,7 @@ export function curvesBlock(block: CurvesBlock, arrays: Arrays): BlockContent {
   );
   return {
     element,
-    height: (width) => (block.views[0] ? viewHeight(block.views[0].panels.length, width) + kBarHeight : 0),
+    height: (width) => (block.views[0] ? viewHeight(block, block.views[0], width) + kBarHeight : 0),
     draw: () => {
       draw();
       onThemeChange(() => plot?.redraw());

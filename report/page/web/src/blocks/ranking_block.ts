@@ -3,7 +3,7 @@ import type { BlockContent } from "../page/block_frame.js";
 import { html, svg } from "../page/element.js";
 import { factList } from "../page/facts.js";
 
-/** Causes by probability, as bars; the chosen ones are marked. */
+/** Bars, each a whole by itself; the chosen ones are marked. */
 export function rankingBlock(block: RankingBlock): BlockContent {
   const list = html("ol", { class: "ranking" });
   for (const item of block.items) {
@@ -16,7 +16,7 @@ export function rankingBlock(block: RankingBlock): BlockContent {
     );
     const head = [
       html("span", { class: "name" }, item.label),
-      item.chosen ? html("span", { class: "chosen" }, "✓ identified") : undefined,
+      item.chosen ? html("span", { class: "chosen" }, `✓ ${block.chosen_word}`) : undefined,
       html("span", { class: "value" }, item.value),
       bar,
     ];
@@ -38,9 +38,9 @@ export function rankingBlock(block: RankingBlock): BlockContent {
         table: () => ({
           columns: [
             { title: "name", unit: "", numeric: false },
-            { title: "share", unit: "", numeric: true },
+            { title: "bar", unit: "", numeric: true },
             { title: "value", unit: "", numeric: true },
-            { title: "identified", unit: "", numeric: false },
+            { title: block.chosen_word, unit: "", numeric: false },
             ...details.map((title) => ({ title, unit: "", numeric: false })),
           ],
           rowCount: block.items.length,

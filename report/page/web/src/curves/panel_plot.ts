@@ -11,6 +11,7 @@ const kFont = "system-ui, sans-serif";
 const kFontSize = 12;
 const kTickSpacing_x = 80; // px
 const kTickSpacing_y = 27;
+const kAloneWidth = 1.4; // px of the only curve of a panel
 const kMargin = 0.06; // of the range of y, above and below
 
 export interface PanelOptions {
@@ -196,7 +197,10 @@ export class PanelPlot {
     for (const curve of options.curves) {
       if (!options.isShown(curve)) continue;
       const { role } = curve.series;
-      curve.paint(ctx, to, options.x, { ...kRoleStyles[role], colour: colour(colourName(role)) });
+      const { width, dash } = kRoleStyles[role];
+      // What is measured is broad for the sake of what lies on it.
+      const ownWidth = options.curves.length > 1 ? width : Math.min(width, kAloneWidth);
+      curve.paint(ctx, to, options.x, { dash, width: ownWidth, colour: colour(colourName(role)) });
     }
     this.paintLevels(ctx, to);
     ctx.restore();
@@ -239,7 +243,7 @@ export class PanelPlot {
   }
 }
 
-function yAxisWidth(width: number): number {
+export function yAxisWidth(width: number): number {
   return width < 500 ? 50 : 62;
 }
 

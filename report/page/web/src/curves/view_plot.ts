@@ -6,10 +6,11 @@ import { html } from "../page/element.js";
 import { followGestures, type PlotInput } from "../page/plot_input.js";
 import { type Curve, curveOf, joined, kEmpty, type Range, type Reading } from "./curve.js";
 import { Legend, readingText } from "./legend.js";
-import { PanelPlot } from "./panel_plot.js";
+import { kOverviewHeight, Overview } from "./overview.js";
+import { PanelPlot, yAxisWidth } from "./panel_plot.js";
 import { paperCopy } from "./paper_copy.js";
 
-const kHeights = [270, 350, 395]; // px of one, two and more panels
+const kHeights = [270, 330, 350, 420]; // px of one, two, three and more panels
 const kNarrow = 500;
 const kNarrowShare = 0.85;
 const kAxisHeight = 26;
@@ -30,6 +31,9 @@ export class ViewPlot implements PlotInput {
   readonly element = html("div", { class: "panels" });
   private readonly parts: Part[];
   private readonly extent: Range;
+  /** The whole range below the panels, of a linear axis. */
+  private readonly overview: Overview | undefined;
+  private readonly start: Range;
   private x: Range;
   private cursor: number | undefined;
 
@@ -42,16 +46,27 @@ export class ViewPlot implements PlotInput {
   ) {
     this.parts = view.panels.map((panel) => {
       const curves = panel.series.map((series) => curveOf(series, arrays));
-      const legend = new Legend(panel, curves, hidden, () => this.showRange(this.x));
+      const legend = new Legend(panel, curves, hidden, () => {
+        this.showRange(this.x);
+        this.overview?.redraw();
+      });
       const place = html("div", { class: "canvas", "aria-hidden": "true" });
       const element = html("div", { class: "panel" }, legend.element, place);
       this.element.append(element);
       return { curves, legend, place, element };
     });
     this.extent = this.wholeRange();
-    this.x = this.extent;
+    const { shown } = view;
+    this.start = shown ? this.limited({ least: shown[0], greatest: shown[1] }) : this.extent;
+    this.x = this.start;
     const xLabel = html("p", { class: "x-label" }, withUnit(block.x.label, block.x.unit));
     this.parts.at(-1)?.element.append(xLabel);
+    if (hasOverview(block, view)) {
+      const isShown = (curve: Curve) => !hidden.has(curve.series.label);
+      this.overview = new Overview(this.parts[0]?.curves ?? [], this.extent, isShown, (x) => this.showRange(this.limited(x)));
+      this.overview.show(this.x);
+      this.element.append(this.overview.element);
+    }
   }
 
   /** Draws for the first time or at another width. */
@@ -64,10 +79,13 @@ export class ViewPlot implements PlotInput {
         followGestures(part.plot.plot.over, this);
       }
     });
+    this.overview?.draw(width, yAxisWidth(width));
+    this.on.range(this.zoomed !== undefined);
   }
 
   redraw(): void {
     for (const part of this.parts) part.plot?.plot.redraw(false, true);
+    this.overview?.redraw();
   }
 
   /** Pictures in the resolution of paper in place of the canvases, until the next call. */
@@ -92,9 +110,15 @@ export class ViewPlot implements PlotInput {
     return this.x === this.extent ? undefined : this.x;
   }
 
+  /** The range in view, if a reader has chosen a part. */
+  get chosen(): Range | undefined {
+    return this.x === this.start ? undefined : this.zoomed;
+  }
+
   showRange(x: Range): void {
     this.x = x;
     for (const part of this.parts) part.plot?.showRange(x);
+    this.overview?.show(x);
     this.moveCursor(this.cursor, false);
     this.on.range(this.zoomed !== undefined || this.parts.some((part) => part.plot?.isYChosen));
   }
@@ -250,6 +274,11 @@ export class ViewPlot implements PlotInput {
   }
 }
 
+/** Where a record may be long: signals over time. */
+function hasOverview(block: CurvesBlock, view: CurvesView): boolean {
+  return block.x.scale === "linear" && block.x.unit === "s" && view.panels.some((panel) => panel.series.length > 0);
+}
+
 /** Height of all panels without their legends and axes. */
 function areaHeight(panels: number, width: number): number {
   const height = kHeights[Math.min(panels, kHeights.length) - 1] ?? 0;
@@ -257,6 +286,8 @@ function areaHeight(panels: number, width: number): number {
 }
 
 /** Height of a view that has not been drawn. */
-export function viewHeight(panels: number, width: number): number {
-  return areaHeight(panels, width) + panels * kLegendHeight + kAxisHeight + kLabelHeight;
+export function viewHeight(block: CurvesBlock, view: CurvesView, width: number): number {
+  const panels = view.panels.length;
+  const overview = hasOverview(block, view) ? kOverviewHeight : 0;
+  return areaHeight(panels, width) + panels * kLegendHeight + kAxisHeight + kLabelHeight + overview;
 }

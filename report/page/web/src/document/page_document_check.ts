@@ -78,8 +78,8 @@ const mapPoint = object(
 
 const base = { id: text, title: text, caption: text };
 
-function viewsOf<P>(panel: Check<P>) {
-  return list(object({ labels: list(text), facts: list(fact), panels: list(panel) }));
+function viewsOf<P, O extends Record<string, Check<unknown>>>(panel: Check<P>, optional: O) {
+  return list(object({ labels: list(text), facts: list(fact), panels: list(panel) }, optional));
 }
 
 const block: Check<Block> = tagged("kind", {
@@ -94,18 +94,19 @@ const block: Check<Block> = tagged("kind", {
     kind: oneOf("curves"),
     x: axis,
     choices: list(text),
-    views: viewsOf(curvesPanel),
+    views: viewsOf(curvesPanel, { shown: pair(number) }),
   }),
   scatter: object({
     ...base,
     kind: oneOf("scatter"),
     choices: list(text),
-    views: viewsOf(scatterPanel),
+    views: viewsOf(scatterPanel, {}),
   }),
   map: object({ ...base, kind: oneOf("map"), x: axis, y: axis, points: list(mapPoint) }),
   ranking: object({
     ...base,
     kind: oneOf("ranking"),
+    chosen_word: text,
     items: list(
       object({ label: text, share: number, value: text, chosen: truth, details: list(fact) }),
     ),
@@ -132,12 +133,15 @@ export const pageDocument: Check<PageDocument> = object(
     program: text,
     command: text,
     title: text,
+    date: text,
     verdict: object({
       status: oneOf("good", "partial", "bad", "neutral"),
       word: text,
       sentence: text,
     }),
+    results: list(fact),
     facts: list(fact),
+    next_step: text,
     sections: list(object({ id: text, title: text, text: list(text), blocks: list(block) })),
   },
   { headline: block },

@@ -17,7 +17,7 @@ export function pageElement(page: PageDocument, arrays: Arrays): HTMLElement[] {
     "header",
     { class: "top" },
     html("h1", {}, page.title),
-    html("div", { class: "tools" }, themeSwitch()),
+    html("div", { class: "tools" }, page.date === "" ? undefined : html("time", { datetime: page.date }, page.date), themeSwitch()),
   );
   const first = html("section", { class: "first", "aria-label": "Verdict" }, verdictElement(page));
   if (page.headline) first.append(frameOf(page.headline, arrays, 2));

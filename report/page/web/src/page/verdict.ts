@@ -24,6 +24,8 @@ export function verdictElement(page: PageDocument): HTMLElement {
     { class: `verdict ${verdict.status}`, id: "verdict" },
     html("p", { class: "word" }, sign, verdict.word),
     html("p", { class: "sentence" }, verdict.sentence),
+    page.results.length > 0 ? factList(page.results, "results") : undefined,
     page.facts.length > 0 ? factList(page.facts, "facts") : undefined,
+    page.next_step === "" ? undefined : html("p", { class: "next" }, html("strong", {}, "Next step: "), page.next_step),
   );
 }

@@ -31,15 +31,17 @@ function newSample(runs: number): Sample {
     program: "flexarm 0.1.0",
     command: "flexarm diagnose bench/measurement.toml --report diagnosis.html",
     title: "Diagnosis of bench/measurement.toml",
+    date: "2026-11-29",
     verdict: {
       status: "good",
       word: "explained",
       sentence: `Explained by coulomb_friction (probability 0.99): the residuals are noise. NRMSE falls from ${before} to ${after} %.`,
     },
+    results: [{ label: "Coulomb friction, torque", value: "0.00800000 ± 4.3e-07 N m, probability 0.99" }],
+    next_step: "Simulate with the extended arm.",
     facts: [
       { label: "NRMSE before", value: `${before} %` },
       { label: "NRMSE after", value: `${after} %` },
-      { label: "Coulomb torque", value: "0.008 ± 4.3e-07 N m" },
       { label: "runs, channels", value: `${runs}, ${all.length}` },
     ],
     headline: {
@@ -49,7 +51,7 @@ function newSample(runs: number): Sample {
       caption: "Measured, simulated before and after, and the residuals on scales of their own.",
       x: { label: "time", unit: "s", scale: "linear" },
       choices: [],
-      views: [{ ...overlay(worst, arrays), labels: [] }],
+      views: [{ ...overlay(worst, arrays), labels: [], shown: [2, 4] }],
     },
     sections: [
       {
@@ -136,6 +138,7 @@ function newSample(runs: number): Sample {
           {
             id: "ranking",
             kind: "ranking",
+            chosen_word: "identified",
             title: "Posterior probability",
             caption: "",
             items: [

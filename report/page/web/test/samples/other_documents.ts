@@ -11,6 +11,9 @@ function pageOf(title: string, blocks: Block[], arrays: ArrayWriter): Sample {
     program: "flexarm 0.1.0",
     command: "flexarm",
     title,
+    date: "",
+    results: [],
+    next_step: "",
     verdict: { status: "neutral", word: "no verdict", sentence: title },
     facts: [],
     sections: [{ id: "all", title: "All", text: [], blocks }],
@@ -127,7 +130,7 @@ export function hostileSample(): Sample {
         y: axis,
         points: [{ mark: "zero", non_minimum_phase: true, series: kHostile, role: "second", real: 1, imaginary: 2, details: [fact] }],
       },
-      { ...base, id: "r", kind: "ranking", items: [{ label: kHostile, share: 0.5, value: kHostile, chosen: true, details: [fact] }] },
+      { ...base, id: "r", kind: "ranking", chosen_word: kHostile, items: [{ label: kHostile, share: 0.5, value: kHostile, chosen: true, details: [fact] }] },
     ],
     arrays,
   );
@@ -221,7 +224,7 @@ export function edgeSample(): Sample {
           details: [{ label: "frequency", value: `${i} Hz` }],
         })),
       },
-      { id: "no-ranking", kind: "ranking", title: "no ranking", caption: "", items: [] },
+      { id: "no-ranking", kind: "ranking", chosen_word: "", title: "no ranking", caption: "", items: [] },
       { id: "no-rows", kind: "table", title: "no rows", caption: "", columns: [{ title: "a", unit: "", numeric: true }], rows: [] },
       { id: "no-columns", kind: "table", title: "no columns", caption: "", columns: [], rows: [] },
       {

@@ -150,6 +150,13 @@ void begin_with_controller(TimeRecord& stretch, std::vector<std::string>& notes,
                               skipped, skipped == 1 ? "" : "s"));
 }
 
+/// Whether the stretch has the record's first sample; its grid may lie off that by less than half a
+/// period.
+bool begins_with(const TimeRecord& stretch, const TimeRecord& record) {
+  return std::abs(stretch.time_s.front() - record.time_s.front()) <
+         0.5 * measured::sampling_period_s(stretch);
+}
+
 /// The records that one part of a file becomes.
 std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part,
                                       const RunsChoice& choice, const std::string& file) {
@@ -180,7 +187,7 @@ std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part
     ImportedRun run{run_of(choice), {}, file, {}};
     run.run.id =
         even.stretches.size() == 1 ? part.id : fmt::format("{}-{}", part.id, runs.size() + 1);
-    bool is_start = first == 0 && stretch.time_s.front() == record.time_s.front();
+    bool is_start = first == 0 && begins_with(stretch, record);
     if (runs.empty()) run.notes = even.notes;
     if (choice.decimation) {
       const auto factor = static_cast<std::size_t>(*choice.decimation);

@@ -29,6 +29,8 @@ constexpr double kMostRounding = 1.1;
 constexpr double kCoarsestDigit_periods = 0.75;
 /// unless so many times repeat.
 constexpr double kFewestRepeats = 0.1;
+/// Times of a grid that lie closer, in periods, differ by rounding.
+constexpr double kSameTime_periods = 1e-6;
 /// Samples that lie closer make a curve through them out of their noise.
 constexpr double kClosest_periods = 0.3;
 
@@ -78,6 +80,8 @@ std::vector<double> fitted_times(std::span<const double> times_s, const ClockSte
   double first_s = 0.0;
   const auto count = static_cast<double>(times_s.size());
   for (std::size_t k = 0; k < at.size(); ++k) first_s += (times_s[k] - period_s * at[k]) / count;
+  // A first time that is off by rounding alone stays what the file says.
+  if (std::abs(first_s - times_s[0]) <= kSameTime_periods * period_s) first_s = times_s[0];
   std::vector<double> fitted(at.size());
   for (std::size_t k = 0; k < at.size(); ++k) fitted[k] = first_s + period_s * at[k];
   return fitted;

@@ -112,14 +112,6 @@ UniversalAxis axis_in(string_view line) {
   return axis;
 }
 
-/// FORTRAN writes a double's exponent with a D.
-std::optional<double> number_in(string_view field) {
-  if (const auto value = number_cell<double>(field)) return value;
-  std::string with_e(field);
-  std::ranges::replace(with_e, 'D', 'e');
-  return number_cell<double>(with_e);
-}
-
 /// Reads one data set after its first two lines.
 class FunctionReader {
  public:
@@ -272,7 +264,7 @@ class FunctionReader {
     std::vector<double> values;
     for (text = trimmed_line(text); !text.empty(); text = trimmed_line(text)) {
       const auto end = std::min(text.find_first_of(" \t"), text.size());
-      const auto value = number_in(text.substr(0, end));
+      const auto value = number_cell<double>(text.substr(0, end));
       if (!value) return false;
       values.push_back(*value);
       text.remove_prefix(end);
@@ -289,7 +281,7 @@ class FunctionReader {
       const auto width = static_cast<std::size_t>(layout_.width(done % layout_.numbers()));
       const string_view field = fields.text(width);
       if (field.empty()) return;
-      const auto value = number_in(field);
+      const auto value = number_cell<double>(field);
       if (!value) {
         throw InputError(
             fmt::format("{}: must be a number in {} columns", arm::shown(field), width));

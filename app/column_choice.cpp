@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -252,6 +253,34 @@ std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLab
   return places;
 }
 
+measured::OwnRates ColumnChoice::own_rates() const {
+  constexpr std::array<std::pair<std::string_view, measured::Between>, 3> kWords = {
+      {{"hold", measured::Between::hold},
+       {"linear", measured::Between::linear},
+       {"rows", measured::Between::rows}}};
+  measured::OwnRates rates;
+  for (const std::string& text : own_rate) {
+    const std::string option = fmt::format("--own-rate {}", arm::shown(text));
+    const auto equals = std::min(text.find('='), text.size());
+    const auto word = std::ranges::find(
+        kWords, std::string_view(text).substr(std::min(equals + 1, text.size())),
+        [](const auto& entry) { return entry.first; });
+    if (word == kWords.end()) {
+      throw InputError(option + ": must be QUANTITY=hold, QUANTITY=linear or QUANTITY=rows");
+    }
+    std::string quantity = text.substr(0, equals);
+    try {
+      if (quantity != measured::kReferenceColumn) quantity = measured::standard_name(quantity);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", option, error.what()));
+    }
+    if (!rates.emplace(quantity, word->second).second) {
+      throw InputError(fmt::format("{}: {} given twice", option, quantity));
+    }
+  }
+  return rates;
+}
+
 std::string ColumnChoice::reference_option() const {
   const auto typed_one = typed_reference(*this);
   return typed_one ? typed_one->option : "";
@@ -341,6 +370,13 @@ void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
                   "and SCALE: those of the sensor that the controller reads. A computed one: "
                   "--compute reference=EXPRESSION")
       ->check(not_empty());
+  parser
+      .add_option("--own-rate", choice.own_rate,
+                  "QUANTITY=hold, linear or rows: what stands in the empty cells of a column that "
+                  "was written at its own rate: the number above, the line over time, or nothing "
+                  "(only rows with all numbers are read). Repeat for more")
+      ->check(not_empty())
+      ->allow_extra_args(false);
   parser
       .add_option("--leave-out", choice.left_out,
                   "Column that is not imported although its name tells a quantity. Repeat for more")

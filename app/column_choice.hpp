@@ -2,6 +2,7 @@
 
 #include "arm/controller.hpp"
 #include "measured/files/column_guess.hpp"
+#include "measured/files/complete_rows.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -31,10 +32,12 @@ struct ColumnChoice {
   std::string time_unit;              ///< in place of that of the file
   std::string reference;              ///< NAME:UNIT:SCALE
   std::vector<std::string> left_out;  ///< names of columns that no quantity is guessed of
+  std::vector<std::string> own_rate;  ///< QUANTITY=hold, linear or rows
 
   /// Whether there is more than names, which frequency responses have too.
   bool is_for_signals() const {
-    return !computed.empty() || !torque.empty() || !time_unit.empty() || !reference.empty();
+    return !computed.empty() || !torque.empty() || !time_unit.empty() || !reference.empty() ||
+           !own_rate.empty();
   }
   bool empty() const { return typed.empty() && left_out.empty() && !is_for_signals(); }
 
@@ -44,6 +47,10 @@ struct ColumnChoice {
 
   /// The places of the columns that are left out. Throws InputError for one that is not there.
   std::vector<std::size_t> left_out_places(std::span<const measured::ColumnLabel> columns) const;
+
+  /// What stands between the numbers of columns with empty cells. Throws InputError for what
+  /// cannot be read.
+  measured::OwnRates own_rates() const;
 
   /// The option that states the reference; empty where none does. Throws InputError for two.
   std::string reference_option() const;

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
 #include "measured/checks/time_unit_check.hpp"
+#include "measured/files/complete_rows.hpp"
 #include "measured/files/raw_doubles.hpp"
 #include "measured/files/universal_grid.hpp"
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -93,7 +95,8 @@ std::vector<ColumnLabel> labels_of(const ForeignFile& file, RunKind kind) {
   std::vector<ColumnLabel> labels;
   if (kind == RunKind::time) {
     for (const auto& column : file.table.columns) {
-      labels.push_back({column.name, column.unit, column.is_text()});
+      labels.push_back(
+          {column.name, column.unit, column.is_text() || column.holds_nothing(), column.is_stamp});
     }
   } else {
     for (const auto& response : file.responses) labels.push_back({response.name, response.unit});
@@ -110,6 +113,7 @@ std::string join_names(const std::vector<ColumnLabel>& labels) {
 /// Times for a file without any.
 void add_times(ForeignTable& table, double period_s) {
   arm::require_in_range("--period", period_s, "s", arm::kPositive);
+  std::erase_if(table.columns, [](const auto& column) { return column.is_made; });
   const auto& first = table.columns.front();
   const std::size_t rows = first.is_text() ? first.texts.size() : first.values.size();
   table.columns.push_back({"time [s]", "s", measured::grid_points({0.0, period_s}, rows)});
@@ -205,6 +209,28 @@ bool is_unused(const std::string& column, const ImportedFile& imported) {
   return std::ranges::count(imported.not_used, column) > 0;
 }
 
+/// Leaves out the rows with empty cells; they are missing samples.
+void leave_out_incomplete(ForeignTable& table, const FileChoice& choice, ImportedFile& imported) {
+  const auto time = imported.columns.find("time");
+  std::optional<double> start;
+  if (time != imported.columns.end() && time->second.expression.empty()) {
+    const auto& times = table.columns[measured::find_column(table, time->second.name)].values;
+    if (!times.empty() && !std::isnan(times.front())) start = times.front();
+  }
+  auto kept = measured::keep_complete_rows(
+      table, imported.columns, imported.reference ? &imported.reference->mapping : nullptr,
+      choice.columns.own_rates());
+  if (kept.rows.size() < kept.rows_in_file) {
+    if (start && kept.rows.front() > 0) {
+      const auto unit = measured::unit_of("time", time->second.unit).value_or(measured::Unit{});
+      imported.start_s = unit.to_si(*start * time->second.scale);
+    }
+    imported.rows = std::move(kept.rows);
+  }
+  imported.is_driven_before = kept.is_driven_before;
+  std::ranges::move(kept.notes, std::back_inserter(imported.assumptions));
+}
+
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
   const std::string name = arm::shown(imported.file);
   const bool in_time = imported.kind == RunKind::time;
@@ -248,6 +274,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   }
   imported.columns = std::move(guess.mappings);
   if (in_time) {
+    leave_out_incomplete(file.table, choice, imported);
     measured::TimeRecord record = uneven_record_of(file.table, imported.columns, name);
     if (imported.reference) {
       const auto& [sensor, mapping] = *imported.reference;

@@ -59,7 +59,9 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
     sources[place] = Source{quantity, mapping};
   }
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto standard = sources[i] ? ColumnMappings() : standard_mapping(table.columns[i].name);
+    const bool is_free = !sources[i] && !table.columns[i].holds_nothing();
+    const auto standard =
+        is_free ? standard_mapping(table.columns[i].name) : ColumnMappings();
     if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
     std::optional<Source> source = Source{standard.begin()->first, standard.begin()->second};
     const bool is_taken = std::ranges::any_of(
@@ -85,8 +87,9 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
     values.push_back(unit.to_si(numbers[row] * mapping.scale));
     if (std::isfinite(values.back())) continue;
     throw InputError(fmt::format(
-        "{}: {} = {}{}: must be a finite number", source.name, what, numbers[row],
-        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)"));
+        "{}: {} = {}{}: must be a finite number{}", source.name, what, numbers[row],
+        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)",
+        std::isnan(numbers[row]) ? "; flexarm import takes such rows as missing samples" : ""));
   }
   row = 0;
   return values;

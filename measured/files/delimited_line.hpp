@@ -26,7 +26,7 @@ class LineSplitter {
   explicit LineSplitter(char separator) : separator_(separator) {}
 
   /// The cells without quotes and without blanks around. A quote that is not closed ends with the
-  /// line.
+  /// line. Between blanks a date and its clock are one cell.
   std::span<const std::string_view> split(std::string_view line);
 
   /// The same for a line of names: between blanks, what stands in brackets belongs to the name in
@@ -35,6 +35,7 @@ class LineSplitter {
 
  private:
   std::size_t quoted_end(std::string_view line, std::size_t at);
+  void join_time_stamp();
 
   char separator_;
   std::vector<std::string_view> cells_;

@@ -14,8 +14,12 @@ struct ForeignColumn {
   std::string unit;  ///< told by the file, as `canonical_unit` has it; empty: not told
   std::vector<double> values;           ///< NaN for an empty cell; none in a column of text
   std::vector<std::string> texts = {};  ///< in place of the values in a column of text
+  bool is_stamp = false;                ///< seconds of time stamps, clocks or dates in the file
+  bool is_made = false;                 ///< times of a start and a period that the file tells
 
   bool is_text() const { return !texts.empty(); }
+  /// Whether it has no number at all.
+  bool holds_nothing() const;
 };
 
 /// Named columns of numbers, and what was assumed to get them, a sentence each.

@@ -3,6 +3,7 @@
 #include "arm/controller.hpp"
 #include "measured/files/column_guess.hpp"
 #include "measured/files/complete_rows.hpp"
+#include "measured/files/response_columns.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -41,9 +42,18 @@ struct ColumnChoice {
   }
   bool empty() const { return typed.empty() && left_out.empty() && !is_for_signals(); }
 
-  /// The mappings; what is not typed of a unit is the file's, or SI. Throws InputError for what
-  /// cannot be read, and for columns that are not there (with the one that was probably meant).
-  measured::ColumnMappings mappings(std::span<const measured::ColumnLabel> columns) const;
+  /// The mappings; what is not typed of a unit is the file's, or SI. A scale is in the unit; one
+  /// that is the unit's own conversion is applied once, with a sentence in `notes`. Throws
+  /// InputError for what cannot be read, and for columns that are not there (with the one that was
+  /// probably meant).
+  measured::ColumnMappings mappings(std::span<const measured::ColumnLabel> columns,
+                                    std::vector<std::string>& notes) const;
+
+  /// The columns typed as parts of frequency responses: `frequency=NAME:UNIT`,
+  /// `SENSOR.magnitude=NAME:UNIT`, `.phase`, `.real`, `.imaginary`, `.coherence`. They are none of
+  /// `mappings`. Throws InputError as that.
+  std::vector<measured::PartColumn> response_parts(
+      std::span<const measured::ColumnLabel> columns) const;
 
   /// The places of the columns that are left out. Throws InputError for one that is not there.
   std::vector<std::size_t> left_out_places(std::span<const measured::ColumnLabel> columns) const;
@@ -65,7 +75,8 @@ struct ColumnChoice {
   /// not the sensor's (of a state space: of none of its sensors).
   ReferenceColumn reference_column(std::span<const measured::ColumnLabel> columns,
                                    const measured::ColumnMappings& mappings,
-                                   const arm::Controller& controller) const;
+                                   const arm::Controller& controller,
+                                   std::vector<std::string>& notes) const;
 
   /// Puts `time_unit` into the mapping of the time. Throws InputError for a unit of no time.
   void set_time_unit(measured::ColumnMappings& mappings) const;

@@ -103,6 +103,15 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 
 }  // namespace
 
+std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
+  std::vector<ColumnLabel> labels;
+  for (const auto& column : table.columns) {
+    labels.push_back(
+        {column.name, column.unit, column.is_text() || column.holds_nothing(), column.is_stamp});
+  }
+  return labels;
+}
+
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given) {
   ColumnGuess guess;
   guess.mappings = given;

@@ -17,6 +17,9 @@ struct ColumnLabel {
   bool is_stamp = false;  ///< times of a clock, which are taken where no column has others
 };
 
+/// The labels of the columns of a table; one without a number is as one of text.
+std::vector<ColumnLabel> labels_of(const ForeignTable& table);
+
 /// A column whose name tells what was measured, but not as which quantity it is to be read.
 struct ColumnQuestion {
   std::string column;

@@ -163,9 +163,19 @@ double scale_of_unit(std::string_view standard_name, std::string_view unit) {
   return other_unit_scale(si_unit_of(standard_name), canonical_unit(unit)).value_or(1.0);
 }
 
+std::optional<double> conversion_of(std::string_view standard_name, std::string_view unit) {
+  if (const auto known = unit_of(standard_name, unit)) return known->to_si(1.0);
+  return other_unit_scale(si_unit_of(standard_name), canonical_unit(unit));
+}
+
+bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale) {
+  constexpr double kAlike = 0.01;
+  const double own = conversion_of(standard_name, unit).value_or(1.0);
+  return own != 1.0 && std::abs(std::abs(scale) / own - 1.0) < kAlike;
+}
+
 bool is_unit_of(std::string_view standard_name, std::string_view unit) {
-  return unit_of(standard_name, unit).has_value() ||
-         other_unit_scale(si_unit_of(standard_name), canonical_unit(unit)).has_value();
+  return conversion_of(standard_name, unit).has_value();
 }
 
 std::vector<std::string> unit_names(std::string_view standard_name) {

@@ -23,7 +23,8 @@ struct ColumnMapping {
   std::string unit;    ///< one of `units_for` the quantity, or any other, which has no factor: then
                        ///< the scale carries into SI; empty: the SI unit
   double scale = 1.0;  ///< finite and not 0
-  std::string expression = {};  ///< in place of the name
+  std::string expression = {};    ///< in place of the name
+  bool is_scale_stated = false;  ///< on the command line, of which a response to no torque asks
 
   bool operator==(const ColumnMapping&) const = default;
 };
@@ -47,6 +48,13 @@ std::optional<Unit> unit_of(std::string_view standard_name, std::string_view uni
 /// The scale into SI that a unit stands for where none is given: that of `other_unit_scale`; 1 for
 /// any other.
 double scale_of_unit(std::string_view standard_name, std::string_view unit);
+
+/// SI units in one of the unit; empty for a foreign one.
+std::optional<double> conversion_of(std::string_view standard_name, std::string_view unit);
+
+/// Whether a scale beside a unit is that unit's own conversion, to within 1 % and but for its sign,
+/// so that it would be applied twice: pi/180 beside deg.
+bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale);
 
 /// Whether numbers in the unit are known in SI without a scale; so is an empty one, which is SI.
 bool is_unit_of(std::string_view standard_name, std::string_view unit);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <utility>
@@ -70,6 +71,13 @@ std::vector<double> grid_from(double first_s, double period_s, std::size_t sampl
     times_s[k] = first_s + period_s * static_cast<double>(k);
   }
   return times_s;
+}
+
+/// A period that is a decimal of few digits but for rounding, as that decimal.
+double without_rounding(double period_s) {
+  constexpr double kRounding = 1e-12;
+  const double decimal_s = std::strtod(fmt::format("{:.9e}", period_s).c_str(), nullptr);
+  return std::abs(decimal_s - period_s) <= kRounding * period_s ? decimal_s : period_s;
 }
 
 /// The times a + period n_k with the places n_k of the samples on the grid, by least squares.
@@ -319,9 +327,10 @@ class EvenMaker {
       return;
     }
     if (is_jittery) note(measured + "; samples taken as even, their times replaced");
-    stretch.time_s = fitted_times(stretch.time_s, steps, jitter.period_s);
+    const double period_s = without_rounding(jitter.period_s);
+    stretch.time_s = fitted_times(stretch.time_s, steps, period_s);
     out_.stretches.push_back(missing > 0.0
-                                 ? resampled(stretch, jitter.period_s, options_.torque_hold)
+                                 ? resampled(stretch, period_s, options_.torque_hold)
                                  : std::move(stretch));
   }
 

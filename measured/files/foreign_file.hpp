@@ -1,25 +1,15 @@
 #pragma once
 
 #include "measured/files/column_mapping.hpp"
+#include "measured/files/foreign_response.hpp"
 #include "measured/files/foreign_table.hpp"
 #include "measured/files/frequency_record.hpp"
 
-#include <complex>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace flexarm::measured {
-
-/// A frequency response of a file that was not made for this program. Vectors are of one length.
-struct ForeignResponse {
-  std::string name;
-  std::string unit;  ///< of the response, canonical; empty: not told
-  std::string per;   ///< unit of what it is a response to; empty: not told
-  std::vector<double> frequency_Hz;
-  std::vector<std::complex<double>> response;
-  std::vector<double> coherence;  ///< NaN where unknown
-};
 
 enum class ForeignFormat { text, universal, matlab };
 
@@ -32,6 +22,7 @@ struct ForeignFile {
   ForeignTable table;  ///< of a text, all; otherwise the signals in time, without columns if none
   std::vector<ForeignResponse> responses;
   std::vector<std::string> left_out;  ///< what is neither, a phrase each
+  std::string incomplete_response;  ///< what a response in columns lacks; empty: there is none
 };
 
 /// Reads a file by what it begins with: a universal file, a MATLAB 5 file, or delimited text.

@@ -68,19 +68,6 @@ constexpr std::size_t kFewestNumbers = 2;
 /// A line of names in front of rows of more cells has at least so many, and half as many as cells.
 constexpr std::size_t kFewestNames = 3;
 
-/// Whether a column is one of times, by its name or unit.
-bool is_time(const ForeignColumn& column) {
-  if (column.is_text()) return false;
-  const auto words = quantity_words();
-  const auto time = std::ranges::find(words, string_view("time"), &QuantityWords::quantity);
-  const bool is_named =
-      std::ranges::count(time->words, plain_letters(split_column_name(column.name).base)) > 0;
-  const auto units = units_for("s");
-  return is_named || column.is_stamp ||
-         std::ranges::count(units, string_view(column.unit), &Unit::name) > 0 ||
-         other_unit_scale("s", column.unit).has_value();
-}
-
 /// A way to read the sample, and how much of it becomes numbers.
 struct Reading {
   Dialect dialect;
@@ -249,11 +236,14 @@ class TableReader {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i].name.empty()) columns_[i].name = fmt::format("column {}", i + 1);
     }
-    beside_ = settings_beside(std::span(sample_).subspan(first_), splitter_, decimal(), columns_);
+    auto beside =
+        settings_beside(std::span(sample_).subspan(first_), splitter_, decimal(), columns_);
+    beside_ = std::move(beside.columns);
     if (!beside_.empty()) {
       assume(fmt::format("settings of the instrument are in columns {} to {}", beside_.front() + 1,
                          beside_.back() + 1));
     }
+    for (const auto& sentence : beside.sentences) assume(arm::shown(sentence, 200));
   }
 
   void read_header() {
@@ -331,7 +321,7 @@ class TableReader {
         counted_ ? counted_->settings
                  : sampling_settings(std::span(sample_).first(first_), reading_.dialect.separator,
                                      decimal());
-    if (settings.period_s && !std::ranges::any_of(table_.columns, is_time)) {
+    if (settings.period_s && !std::ranges::any_of(table_.columns, is_time_column)) {
       assume(fmt::format("times begin at {} s and are {} s apart, as line {} tells",
                          settings.start_s, *settings.period_s, settings.line));
       ForeignColumn times{"time [s]", "s", grid_points({settings.start_s, *settings.period_s},
@@ -356,6 +346,18 @@ class TableReader {
 };
 
 }  // namespace
+
+bool is_time_column(const ForeignColumn& column) {
+  if (column.is_text()) return false;
+  const auto words = quantity_words();
+  const auto time = std::ranges::find(words, string_view("time"), &QuantityWords::quantity);
+  const bool is_named =
+      std::ranges::count(time->words, plain_letters(split_column_name(column.name).base)) > 0;
+  const auto units = units_for("s");
+  return is_named || column.is_stamp ||
+         std::ranges::count(units, string_view(column.unit), &Unit::name) > 0 ||
+         other_unit_scale("s", column.unit).has_value();
+}
 
 bool ForeignColumn::holds_nothing() const {
   return !is_text() &&

@@ -30,7 +30,7 @@ Cells cells_of(string_view line, LineSplitter& splitter) {
   return {cells.begin(), cells.end()};
 }
 
-std::size_t place_of(const Cells& cells, bool (*is_it)(string_view)) {
+std::size_t cell_place(const Cells& cells, bool (*is_it)(string_view)) {
   return static_cast<std::size_t>(
       std::ranges::find_if(cells, [&](const std::string& cell) { return is_it(cell); }) -
       cells.begin());
@@ -52,8 +52,8 @@ bool is_number_at(const Cells& cells, std::size_t place, char decimal) {
 std::optional<CountedHeader> header_of_two_lines(const Cells& names, std::size_t at,
                                                  std::span<const TextLine> lines,
                                                  LineSplitter& splitter, char decimal) {
-  const std::size_t start = place_of(names, is_start_name);
-  const std::size_t period = place_of(names, is_period_name);
+  const std::size_t start = cell_place(names, is_start_name);
+  const std::size_t period = cell_place(names, is_period_name);
   if (start == names.size() || period == names.size() || at + 2 >= lines.size()) {
     return std::nullopt;
   }
@@ -99,7 +99,7 @@ struct Settings {
   std::string time_unit;
 };
 
-void read_setting(const Cells& cells, std::size_t block, Settings& settings) {
+void read_key(const Cells& cells, std::size_t block, Settings& settings) {
   const std::string key = plain_letters(cells[block]);
   const std::string value = block + 1 < cells.size() ? cells[block + 1] : "";
   if (value.empty()) return;
@@ -132,9 +132,9 @@ std::optional<CountedHeader> counted_header(std::span<const TextLine> lines, Lin
   return std::nullopt;
 }
 
-std::vector<std::size_t> settings_beside(std::span<const TextLine> rows, LineSplitter& splitter,
-                                         char decimal, std::vector<ForeignColumn>& columns) {
-  std::vector<std::size_t> beside;
+SettingsBeside settings_beside(std::span<const TextLine> rows, LineSplitter& splitter, char decimal,
+                               std::vector<ForeignColumn>& columns) {
+  SettingsBeside beside;
   if (rows.empty()) return beside;
   const Cells first = cells_of(rows.front().text, splitter);
   const Cells last = cells_of(rows.back().text, splitter);
@@ -146,10 +146,10 @@ std::vector<std::size_t> settings_beside(std::span<const TextLine> rows, LineSpl
     Settings settings;
     for (const auto& row : rows.first(std::min(rows.size(), kMostSettings))) {
       const Cells cells = cells_of(row.text, splitter);
-      if (i < cells.size()) read_setting(cells, i, settings);
+      if (i < cells.size()) read_key(cells, i, settings);
     }
-    const bool is_second = !beside.empty();
-    for (; i < columns.size() && is_empty_below(i); ++i) beside.push_back(i);
+    const bool is_second = !beside.columns.empty();
+    for (; i < columns.size() && is_empty_below(i); ++i) beside.columns.push_back(i);
     if (i + 1 >= columns.size() || !is_number_at(last, i, decimal)) continue;
     if (columns[i].name.starts_with("column ")) {
       columns[i].name = is_second ? settings.source + " time" : "time";
@@ -158,7 +158,9 @@ std::vector<std::size_t> settings_beside(std::span<const TextLine> rows, LineSpl
     ++i;
     if (columns[i].name.starts_with("column ") && !settings.source.empty()) {
       columns[i].name = settings.source;
-      columns[i].unit = settings.unit;
+      if (settings.unit.empty()) continue;
+      beside.sentences.push_back(
+          fmt::format("the instrument recorded {} in {}", settings.source, settings.unit));
     }
   }
   return beside;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace flexarm::measured {
@@ -28,10 +29,17 @@ struct CountedHeader {
 std::optional<CountedHeader> counted_header(std::span<const TextLine> lines, LineSplitter& splitter,
                                             char decimal);
 
-/// The columns that hold settings beside the first samples (Tektronix): `Record Length,2500,,` and
-/// the like in the first rows, empty cells below. What they tell of the two columns behind them,
-/// a time and a signal, becomes name and unit of these where `columns` has none.
-std::vector<std::size_t> settings_beside(std::span<const TextLine> rows, LineSplitter& splitter,
-                                         char decimal, std::vector<ForeignColumn>& columns);
+/// Columns that hold settings beside the first samples (Tektronix): `Record Length,2500,,` and the
+/// like in the first rows, empty cells below.
+struct SettingsBeside {
+  std::vector<std::size_t> columns;
+  std::vector<std::string> sentences;  ///< on the units that they tell of the signals
+};
+
+/// What the settings tell of the two columns behind them, a time and a signal, becomes the name of
+/// these where `columns` has none, and the unit of the time. That of the signal is said alone: it is
+/// the instrument's, not the quantity's.
+SettingsBeside settings_beside(std::span<const TextLine> rows, LineSplitter& splitter, char decimal,
+                               std::vector<ForeignColumn>& columns);
 
 }  // namespace flexarm::measured

@@ -23,7 +23,7 @@ namespace {
 
 using arm::InputError;
 
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoSample = std::numeric_limits<double>::quiet_NaN();
 
 bool is_x_name(const std::string& name) {
   return plain_letters(name) == "xvalue";
@@ -216,7 +216,7 @@ class SegmentJoiner {
   void begin_row(double time_s, int line) {
     table_.columns[0].values.push_back(time_s);
     for (std::size_t i = 1; i < table_.columns.size(); ++i) {
-      table_.columns[i].values.push_back(kMissing);
+      table_.columns[i].values.push_back(kNoSample);
     }
     table_.line_of_row.push_back(line);
   }
@@ -240,7 +240,7 @@ class SegmentJoiner {
       });
       if (found == table_.columns.end()) {
         table_.columns.push_back({channel.name, channel.unit,
-                                  std::vector<double>(table_.line_of_row.size(), kMissing)});
+                                  std::vector<double>(table_.line_of_row.size(), kNoSample)});
         found = table_.columns.end() - 1;
       }
       places.push_back(static_cast<std::size_t>(found - table_.columns.begin()));

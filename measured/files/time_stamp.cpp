@@ -26,11 +26,11 @@ constexpr std::int64_t kHour_ns = 60 * kMinute_ns;
 constexpr std::int64_t kDay_ns = 24 * kHour_ns;
 constexpr std::size_t kLongestStamp = 64;
 
-bool is_digit(char c) {
+bool is_of_number(char c) {
   return c >= '0' && c <= '9';
 }
 
-bool is_letter(char c) {
+bool is_of_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
@@ -67,8 +67,8 @@ class StampText {
     return taken;
   }
 
-  string_view digits() { return take_while(is_digit); }
-  string_view letters() { return take_while(is_letter); }
+  string_view digits() { return take_while(is_of_number); }
+  string_view letters() { return take_while(is_of_word); }
 
  private:
   string_view rest_;
@@ -123,7 +123,7 @@ bool read_date(string_view text, TimeStamp& stamp) {
   std::array<string_view, 3> parts;
   std::size_t named = parts.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto is_of_name = [](char c) { return is_letter(c) || static_cast<unsigned char>(c) > 127; };
+    const auto is_of_name = [](char c) { return is_of_word(c) || static_cast<unsigned char>(c) > 127; };
     parts[i] = rest.digits();
     if (parts[i].empty() && named == parts.size()) {
       parts[i] = rest.take_while(is_of_name);
@@ -171,7 +171,7 @@ std::int64_t billionths(string_view digits) {
 /// What stands behind the clock: AM or PM, then a time zone.
 bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns) {
   rest.pass_blanks();
-  for (int words = 0; words < 2 && is_letter(rest.peek()); ++words) {
+  for (int words = 0; words < 2 && is_of_word(rest.peek()); ++words) {
     std::string word = plain_letters(rest.letters());
     if (rest.take('.')) {  // a.m.
       word += plain_letters(rest.letters());
@@ -293,7 +293,7 @@ std::optional<TimeStamp> parse_time_stamp(string_view cell) {
     return stamp;
   }
   std::size_t begin = colon;
-  while (begin > 0 && is_digit(text[begin - 1])) --begin;
+  while (begin > 0 && is_of_number(text[begin - 1])) --begin;
   string_view date = trimmed(text.substr(0, begin));
   if (date.ends_with('T') || date.ends_with('_') || date.ends_with(',')) date.remove_suffix(1);
   if (!date.empty() && !read_date(trimmed(date), stamp)) return std::nullopt;

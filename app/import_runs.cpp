@@ -150,13 +150,6 @@ void begin_with_controller(TimeRecord& stretch, std::vector<std::string>& notes,
                               skipped, skipped == 1 ? "" : "s"));
 }
 
-/// Whether the stretch has the record's first sample; its grid may lie off that by less than half a
-/// period.
-bool begins_with(const TimeRecord& stretch, const TimeRecord& record) {
-  return std::abs(stretch.time_s.front() - record.time_s.front()) <
-         0.5 * measured::sampling_period_s(stretch);
-}
-
 /// The records that one part of a file becomes.
 std::vector<ImportedRun> runs_of_part(const ImportedFile& file, const Part& part,
                                       const RunsChoice& choice) {
@@ -170,9 +163,11 @@ std::vector<ImportedRun> runs_of_part(const ImportedFile& file, const Part& part
   options.torque_hold = hold_of(choice);
   options.longest_filled_gap = static_cast<std::size_t>(choice.longest_filled_gap);
   measured::EvenRecords even = measured::make_even(wanted, options);
+  bool has_start = first == 0 && even.has_first_sample && !file.is_driven_before;
   if (choice.decimation && even.stretches.size() > 1) {
     const std::size_t fewest =
         measured::fewest_samples(static_cast<std::size_t>(*choice.decimation));
+    if (even.stretches.front().time_s.size() < fewest) has_start = false;
     const auto left_out = std::erase_if(
         even.stretches, [&](const TimeRecord& stretch) { return stretch.time_s.size() < fewest; });
     if (left_out > 0) {
@@ -190,7 +185,7 @@ std::vector<ImportedRun> runs_of_part(const ImportedFile& file, const Part& part
     ImportedRun run{run_of(choice), {}, file.file, {}};
     run.run.id =
         even.stretches.size() == 1 ? part.id : fmt::format("{}-{}", part.id, runs.size() + 1);
-    bool is_start = first == 0 && begins_with(stretch, record) && !file.is_driven_before;
+    bool is_start = has_start && runs.empty();
     if (runs.empty()) run.notes = even.notes;
     if (choice.decimation) {
       const auto factor = static_cast<std::size_t>(*choice.decimation);

@@ -58,15 +58,27 @@ std::vector<RunKind> kinds_of(const ForeignFile& file) {
   std::size_t of_responses = 1;
   for (const auto& response : file.responses) of_responses += response.columns.size();
   if (columns > 0 && (kinds.empty() || columns > of_responses)) kinds.push_back(RunKind::time);
+  if (!file.modes.empty()) kinds.push_back(RunKind::modal);
   return kinds;
+}
+
+const char* content_of(RunKind kind) {
+  if (kind == RunKind::time) return "time signals";
+  return kind == RunKind::frf ? "frequency responses" : "a modal table";
 }
 
 RunKind kind_of(const ForeignFile& file, std::optional<RunKind> given) {
   const auto kinds = kinds_of(file);
   if (!given && kinds.size() == 1) return kinds.front();
   if (!given) {
-    throw InputError(
-        "contains time signals and frequency responses; choose with --kind time or --kind frf");
+    std::vector<std::string> contents;
+    std::vector<std::string> options;
+    for (const auto kind : kinds) {
+      contents.emplace_back(content_of(kind));
+      options.push_back(fmt::format("--kind {}", to_string(kind)));
+    }
+    throw InputError(fmt::format("contains {}; choose with {}", fmt::join(contents, " and "),
+                                 fmt::join(options, " or ")));
   }
   const bool is_table = file.format == measured::ForeignFormat::text && *given == RunKind::time;
   if (is_table || std::ranges::count(kinds, *given) > 0) return *given;
@@ -79,9 +91,7 @@ RunKind kind_of(const ForeignFile& file, std::optional<RunKind> given) {
                                          : file.incomplete_response));
   }
   throw InputError(fmt::format("--kind {}: the file contains {}", to_string(*given),
-                               kinds.front() == RunKind::time  ? "time signals"
-                               : kinds.front() == RunKind::frf ? "frequency responses"
-                                                               : "a modal table"));
+                               content_of(kinds.front())));
 }
 
 /// A table with texts in it as CSV, each row on the line that it has in the file.
@@ -307,9 +317,10 @@ ImportedFile import_file(const std::string& path, const FileChoice& choice) {
     take_typed_responses(file, choice);
     imported.assumptions = file.table.assumptions;
     imported.kind = kind_of(file, choice.kind);
-    const bool is_long_form = file.format == measured::ForeignFormat::text &&
-                              imported.kind != RunKind::time &&
-                              (is_modal_form(file.table) || is_record_form(file.table));
+    const bool is_long_form =
+        imported.kind == RunKind::modal ||
+        (imported.kind == RunKind::frf && file.format == measured::ForeignFormat::text &&
+         is_record_form(file.table));
     if (is_long_form && !choice.columns.empty()) {
       throw InputError(
           "--column, --compute, --reference: not applicable, this file names its columns");
@@ -317,7 +328,9 @@ ImportedFile import_file(const std::string& path, const FileChoice& choice) {
     if (choice.period_s && imported.kind != RunKind::time) {
       throw InputError("--period: only for time signals");
     }
-    if (is_long_form) {
+    if (!file.modes.empty() && imported.kind == RunKind::modal) {
+      imported.data = file.modes;
+    } else if (is_long_form) {
       read_text_kind(file, imported);
     } else if (imported.kind == RunKind::frf) {
       read_responses(file, choice, imported);

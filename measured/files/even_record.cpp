@@ -246,6 +246,7 @@ class EvenMaker {
 
   bool is_too_short(const TimeRecord& part) {
     if (part.time_s.size() >= options_.fewest_samples) return false;
+    if (out_.stretches.empty()) out_.has_first_sample = false;
     note(fmt::format("{} sample{} at {} s left out: a stretch has {} or more", part.time_s.size(),
                      part.time_s.size() == 1 ? "" : "s", part.time_s.front(),
                      options_.fewest_samples));
@@ -345,7 +346,7 @@ std::string_view to_string(Clock clock) {
 }
 
 EvenRecords make_even(const TimeRecord& record, const EvenOptions& options) {
-  if (!grid_fault(record.time_s)) return {{record}, {}};
+  if (!grid_fault(record.time_s)) return {{record}, {}, true};
   return EvenMaker(options).make(record);
 }
 

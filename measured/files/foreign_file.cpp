@@ -166,6 +166,11 @@ ForeignFile universal_contents(std::string_view bytes, const std::string& file_n
   add_signals(signals, file);
   add_responses(responses, file);
   add_coherences(universal, file);
+  for (const auto& mode : universal.modes) {
+    const bool is_told = mode.pole && std::ranges::count(file.modes, *mode.pole) > 0;
+    if (mode.pole && !is_told) file.modes.push_back(*mode.pole);
+    file.left_out.push_back(mode.left_out);
+  }
   for (const auto& number : universal.passed_over) {
     file.left_out.push_back("data set " + number);
   }
@@ -236,8 +241,8 @@ ForeignFile read_foreign_file(const std::filesystem::path& path) {
   } catch (const InputError& error) {
     throw arm::located(error, name, 0);
   }
-  if (file.table.columns.empty() && file.responses.empty()) {
-    throw InputError(fmt::format("{}: {} without time signals or frequency responses", name,
+  if (file.table.columns.empty() && file.responses.empty() && file.modes.empty()) {
+    throw InputError(fmt::format("{}: {} without time signals, frequency responses or modes", name,
                                  to_string(file.format)));
   }
   return file;

@@ -84,21 +84,26 @@ std::vector<NameWord> name_words(string_view name) {
   return words;
 }
 
-/// The name without the words, and without marks around what is left.
+/// The name without the words, and without marks around what is left. Digits behind a word tell
+/// responses apart and stay: mag1, mag2.
 std::string without(string_view name, const std::vector<NameWord>& words) {
-  std::string rest(name);
-  for (auto word = words.rbegin(); word != words.rend(); ++word) {
-    // Digits behind the word tell responses apart: mag1, mag2.
-    std::size_t end = word->end;
-    while (end > word->begin && rest[end - 1] >= '0' && rest[end - 1] <= '9') --end;
-    rest.replace(word->begin, end - word->begin, " ");
+  std::string rest;
+  std::size_t at = 0;
+  for (const auto& word : words) {
+    std::size_t end = word.end;
+    while (end > word.begin && name[end - 1] >= '0' && name[end - 1] <= '9') --end;
+    rest.append(name.substr(at, word.begin - at));
+    if (!rest.ends_with(' ')) rest += ' ';
+    at = end;
   }
+  string_view left = name.substr(at);
+  if (rest.ends_with(' ') && left.starts_with(' ')) left.remove_prefix(1);
+  rest.append(left);
   constexpr string_view kMarks = " _-.,:;/()[]{}|<>";
-  const auto first = rest.find_first_not_of(kMarks);
-  if (first == std::string::npos) return "";
-  rest = rest.substr(first, rest.find_last_not_of(kMarks) - first + 1);
-  for (auto at = rest.find("  "); at != std::string::npos; at = rest.find("  ")) rest.erase(at, 1);
-  return rest;
+  left = rest;
+  while (!left.empty() && kMarks.find(left.front()) != string_view::npos) left.remove_prefix(1);
+  while (!left.empty() && kMarks.find(left.back()) != string_view::npos) left.remove_suffix(1);
+  return std::string(left);
 }
 
 /// Whether the text is the unit of a part or of a response.

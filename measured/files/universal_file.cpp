@@ -299,10 +299,13 @@ class FunctionReader {
   UniversalFunction function_;
 };
 
-void pass_over(Cursor& cursor) {
+/// The lines of a data set, to its end.
+std::vector<string_view> lines_to_end(Cursor& cursor) {
+  std::vector<string_view> lines;
   string_view line;
   while (cursor.next(line)) {
-    if (trimmed_line(line) == "-1") return;
+    if (trimmed_line(line) == "-1") return lines;
+    lines.push_back(line);
   }
   throw InputError("file incomplete: data set without its end line -1");
 }
@@ -326,19 +329,23 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
           throw InputError(fmt::format("more than {} data sets 58", kMostRecordColumns));
         }
         file.functions.push_back(FunctionReader(cursor, line).read());
+      } else if (number == "55") {
+        const auto lines = lines_to_end(cursor);
+        file.modes.push_back(read_universal_mode(lines));
       } else {
         if (!number_cell<int>(number)) {
           throw InputError(
               fmt::format("{}: must be the number of a data set", arm::shown(trimmed_line(line))));
         }
         file.passed_over.emplace_back(number);
-        pass_over(cursor);
+        lines_to_end(cursor);
       }
     }
-    if (file.functions.empty()) {
+    if (file.functions.empty() && file.modes.empty()) {
       throw InputError(file.passed_over.empty()
                            ? "empty; must have one data set 58 or more"
-                           : "has no data set 58, which holds time and frequency responses");
+                           : "has no data set 58, which holds time and frequency responses, nor 55, "
+                             "which holds modes");
     }
     file.functions = joined(std::move(file.functions));
   } catch (const InputError& error) {

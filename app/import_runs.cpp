@@ -157,7 +157,7 @@ std::vector<ImportedRun> runs_of_part(const ImportedFile& file, const Part& part
   const double file_start_s = file.start_s.value_or(record.time_s.front());
   std::size_t first = 0;
   const TimeRecord wanted =
-      part.range ? measured::part_of(record, file.rows, *part.range, first) : record;
+      part.range ? measured::part_of(record, *part.range, first, file.rows) : record;
   measured::EvenOptions options;
   options.clock = arm::read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
   options.torque_hold = hold_of(choice);

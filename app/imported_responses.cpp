@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/column_guess.hpp"
 #include "measured/files/column_lookup.hpp"
+#include "measured/files/column_name.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -69,7 +70,7 @@ void assume_sensor(const ForeignFile& file, measured::ColumnMappings& mappings,
                                                  : std::string_view(response.unit));
     mappings[sensor] = {response.name, unit, measured::scale_of_unit(sensor, response.unit)};
     warnings.push_back(fmt::format(
-        "{} is taken as {} in {} per {}; if it is another, state it with --column SENSOR={}:UNIT",
+        "{} is taken as {} in {} per {}; if it is another, state it with --column 'SENSOR={}:UNIT'",
         arm::shown(response.name), sensor, unit, response.per.empty() ? "N m" : response.per,
         arm::shown(response.name)));
     return;
@@ -117,6 +118,9 @@ void take_typed_responses(ForeignFile& file, const FileChoice& choice) {
   if (parts.empty()) return;
   auto made = measured::responses_of(file.table, parts);
   file.responses = std::move(made.responses);
+  for (auto& response : file.responses) {
+    if (response.unit.empty()) response.unit = measured::split_column_name(response.name).unit;
+  }
   std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,14 +18,6 @@ using arm::InputError;
 using std::string_view;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-/// What programs write in place of a number that there is not.
-bool is_missing(string_view cell) {
-  constexpr std::array<string_view, 19> kSigns = {
-      "",     "-",    "--",   "---",  "?",    "NA",      "N/A",     "n/a",   "na",   "#N/A",
-      "#NV",  "null", "NULL", "Null", "NaN.", "1.#QNAN", "-1.#IND", "1.#IND", "-nan(ind)"};
-  return std::ranges::count(kSigns, cell) > 0;
-}
 
 }  // namespace
 
@@ -52,7 +43,7 @@ void ColumnBuilder::add_cell(Column& column, string_view cell) const {
   } else if (const auto value = parse_cell(cell, decimal_); value && column.kind != Kind::stamps) {
     values.push_back(*value);
     if (!std::isnan(*value)) column.kind = Kind::numbers;
-  } else if (is_missing(cell)) {
+  } else if (is_missing_number(cell)) {
     values.push_back(kMissing);
     if (column.kind == Kind::stamps) column.stamps.emplace_back();
   } else if (column.kind == Kind::numbers || has_thousands_separators(cell, decimal_)) {

@@ -124,6 +124,13 @@ std::optional<double> parse_cell(string_view cell, char decimal) {
   return number_cell<double>({digits.data(), cell.size()});
 }
 
+bool is_missing_number(string_view cell) {
+  constexpr std::array<string_view, 17> kSigns = {
+      "-",   "--",   "---",  "?",    "NA",      "N/A",     "n/a",    "na",       "#N/A",
+      "#NV", "null", "NULL", "Null", "1.#QNAN", "-1.#IND", "1.#IND", "-nan(ind)"};
+  return cell.empty() || std::ranges::count(kSigns, cell) > 0;
+}
+
 bool has_thousands_separators(string_view cell, char decimal) {
   constexpr std::size_t kGroup = 3;
   constexpr string_view kDigits = "0123456789";

@@ -52,6 +52,10 @@ std::string_view trimmed(std::string_view text);
 /// A cell as a number with the dialect's decimal mark, `nan` and `inf` included.
 std::optional<double> parse_cell(std::string_view cell, char decimal);
 
+/// Whether the cell is empty or has what programs write in place of a number that there is not: NA,
+/// null, -, ...
+bool is_missing_number(std::string_view cell);
+
 /// Whether the cell is a number only with its thousands separators taken out: "1,234.5", "1'234",
 /// "1 234,5".
 bool has_thousands_separators(std::string_view cell, char decimal);

@@ -142,6 +142,18 @@ class TableReader {
     return cells.size() == reading_.cells && count_numbers(cells, decimal()) >= kFewestNumbers;
   }
 
+  /// A row with some empty cells.
+  bool is_incomplete_row(string_view line) {
+    if (is_comment(line) || reading_.dialect.separator == ' ') return false;
+    const auto cells = splitter_.split(line);
+    const std::size_t numbers = count_numbers(cells, decimal());
+    const auto missing = std::ranges::count_if(cells, [&](string_view cell) {
+      return is_missing_number(cell) && !parse_cell(cell, decimal());
+    });
+    return cells.size() == reading_.cells && numbers > 0 &&
+           numbers + static_cast<std::size_t>(missing) == cells.size();
+  }
+
   /// A row and one that is at least meant to be begin the data; a line of numbers in front of a
   /// line of names does not.
   void find_first_row() {
@@ -151,8 +163,10 @@ class TableReader {
       std::size_t next = i + 1;
       while (next + 1 < sample_.size() && is_passed_over(sample_[next].text)) ++next;
       const auto cells = splitter_.split(sample_[next].text);
-      if (count_numbers(cells, decimal()) < kFewestNumbers) continue;
+      const bool has_numbers = count_numbers(cells, decimal()) >= kFewestNumbers;
+      if (!has_numbers && !is_incomplete_row(sample_[next].text)) continue;
       first_ = i;
+      while (first_ > from && is_incomplete_row(sample_[first_ - 1].text)) --first_;
       return;
     }
     line_ = 1;
@@ -317,11 +331,13 @@ class TableReader {
 
   /// Times of a start and a period in front of the samples, where no column has any.
   void add_times() {
-    SamplingSettings settings =
-        counted_ ? counted_->settings
-                 : sampling_settings(std::span(sample_).first(first_), reading_.dialect.separator,
-                                     decimal());
-    if (settings.period_s && !std::ranges::any_of(table_.columns, is_time_column)) {
+    SamplingSettings settings;
+    if (!std::ranges::any_of(table_.columns, is_time_column)) {
+      settings = counted_ ? counted_->settings
+                          : sampling_settings(std::span(sample_).first(first_),
+                                              reading_.dialect.separator, decimal());
+    }
+    if (settings.period_s) {
       assume(fmt::format("times begin at {} s and are {} s apart, as line {} tells",
                          settings.start_s, *settings.period_s, settings.line));
       ForeignColumn times{"time [s]", "s", grid_points({settings.start_s, *settings.period_s},

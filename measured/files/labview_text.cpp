@@ -82,6 +82,7 @@ class SegmentReader {
   void read_line() {
     if (is_blank_line(line_.text)) return;
     cells_ = splitter_.split(line_.text);
+    if (std::ranges::all_of(cells_, &string_view::empty)) return;
     const string_view first = cells_.front();
     if (first.starts_with(kMark)) {
       part_ = Part::file_head;

@@ -63,8 +63,8 @@ TimeRecord samples_of(const TimeRecord& record, std::size_t first, std::size_t l
   return samples;
 }
 
-TimeRecord part_of(const TimeRecord& record, std::span<const std::size_t> rows,
-                   const RecordRange& range, std::size_t& first) {
+TimeRecord part_of(const TimeRecord& record, const RecordRange& range, std::size_t& first,
+                   std::span<const std::size_t> rows) {
   const std::size_t samples = record.time_s.size();
   const auto is_in = [&](std::size_t k) {
     const std::size_t row = rows.empty() ? k : rows[k];

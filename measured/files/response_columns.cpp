@@ -242,6 +242,20 @@ class ResponseMaker {
   std::vector<std::string> notes_;
 };
 
+/// The only two columns of a response belong together, whatever else their names have: "Gain" and
+/// "Phase angle".
+void name_only_pairs_alike(std::vector<PartColumn>& parts) {
+  for (const auto& [first, second] : {std::pair{ResponsePart::magnitude, ResponsePart::phase},
+                                      std::pair{ResponsePart::real, ResponsePart::imaginary}}) {
+    if (std::ranges::count(parts, first, &PartColumn::part) != 1 ||
+        std::ranges::count(parts, second, &PartColumn::part) != 1) {
+      continue;
+    }
+    const auto named = std::ranges::find(parts, first, &PartColumn::part);
+    std::ranges::find(parts, second, &PartColumn::part)->response = named->response;
+  }
+}
+
 const PartColumn* frequency_of(const std::vector<PartColumn>& parts) {
   const auto found = std::ranges::find(parts, ResponsePart::frequency, &PartColumn::part);
   return found == parts.end() ? nullptr : &*found;
@@ -282,7 +296,8 @@ ResponseColumns responses_of(const ForeignTable& table, const std::vector<PartCo
 
 ResponseColumns responses_in(const ForeignTable& table) {
   ResponseColumns made;
-  const auto parts = response_parts(table);
+  auto parts = response_parts(table);
+  name_only_pairs_alike(parts);
   const PartColumn* frequency = frequency_of(parts);
   if (frequency == nullptr) return made;
   auto all = gathered(parts, made.notes, table);

@@ -34,8 +34,13 @@ bool is_one_of(std::span<const string_view> names, string_view words) {
   return std::ranges::count(names, words) > 0;
 }
 
-/// Letters and digits in lower case: "x0" of "X0".
+/// Letters and digits in lower case, "x0" of "X0"; empty for what is no such name.
 std::string name_of(string_view words) {
+  constexpr std::size_t kLongestName = 40;
+  const bool begins_with_letter =
+      !words.empty() && ((words.front() >= 'a' && words.front() <= 'z') ||
+                         (words.front() >= 'A' && words.front() <= 'Z'));
+  if (!begins_with_letter || words.size() > kLongestName) return "";
   const std::string base = split_column_name(words).base;
   std::string name = plain_letters(base);
   for (const char digit : {'0'}) {

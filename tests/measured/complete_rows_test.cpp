@@ -24,7 +24,7 @@ CompleteRows keep(ForeignTable& table, const OwnRates& rates = {},
   return keep_complete_rows(table, mappings, reference, rates);
 }
 
-std::string refusal(const std::string& text, const OwnRates& rates = {}) {
+std::string refused_rows(const std::string& text, const OwnRates& rates = {}) {
   try {
     auto table = parse_foreign_table(text, "log");
     keep(table, rates);
@@ -69,7 +69,7 @@ std::string sparse_log(int rows) {
 }
 
 TEST(CompleteRows, AColumnOfItsOwnRateAsksForWhatStandsBetween) {
-  EXPECT_EQ(refusal(sparse_log(20)),
+  EXPECT_EQ(refused_rows(sparse_log(20)),
             "torque: column u has a number in one of 4 rows alone, written at its own rate; state "
             "what stands between with --own-rate torque=hold (the number above), torque=linear, or "
             "torque=rows (only the rows that have all numbers)");
@@ -98,12 +98,12 @@ TEST(CompleteRows, AReferenceAndExpressionsTakeColumnsToo) {
 }
 
 TEST(CompleteRows, WhatHasNoNumberIsSaid) {
-  EXPECT_EQ(refusal("t,u,y\n0,1,\n1,1,\n2,1,\n"),
+  EXPECT_EQ(refused_rows("t,u,y\n0,1,\n1,1,\n2,1,\n"),
             "hub_angle: column y has no number in any row; take another one");
-  EXPECT_EQ(refusal("t,u,y\n0,1,\n1,,2\n2,1,\n3,,3\n",
+  EXPECT_EQ(refused_rows("t,u,y\n0,1,\n1,,2\n2,1,\n3,,3\n",
                     {{"torque", Between::rows}, {"hub_angle", Between::rows}}),
             "no row has a number in each of the columns y, t, u");
-  EXPECT_THAT(refusal("t,u,y\n0,1,1\n1,1,2\n", {{"tip_deflection", Between::hold}}),
+  EXPECT_THAT(refused_rows("t,u,y\n0,1,1\n1,1,2\n", {{"tip_deflection", Between::hold}}),
               HasSubstr("--own-rate tip_deflection: no column of the file is this"));
 }
 

@@ -39,8 +39,12 @@ TEST_P(InstrumentTable, HasTimesAndSignals) {
   const ForeignTable table = parse_foreign_table(GetParam().text, "scope.csv");
   const auto guess = guess_columns(labels_of(table), {});
   ASSERT_TRUE(guess.mappings.contains("time"));
-  EXPECT_THAT(column(table, guess.mappings.at("time").name).values,
-              ElementsAre(DoubleEq(-0.1), DoubleEq(-0.098), DoubleEq(-0.096)));
+  const auto& time = column(table, guess.mappings.at("time").name);
+  std::vector<double> times_s;
+  for (const double value : time.values) {
+    times_s.push_back(value * conversion_of("time", time.unit).value());
+  }
+  EXPECT_THAT(times_s, ElementsAre(DoubleEq(-0.1), DoubleEq(-0.098), DoubleEq(-0.096)));
   EXPECT_THAT(column(table, GetParam().first).values, ElementsAre(1.0, 2.0, 3.0));
   EXPECT_THAT(column(table, GetParam().second).values, ElementsAre(4.0, 5.0, 6.0));
 }
@@ -102,7 +106,7 @@ std::string tektronix(bool second) {
   return text;
 }
 
-TEST(InstrumentTable, SettingsBesideSamplesAreNoSamples) {
+TEST(InstrumentHead, SettingsBesideSamplesAreNoSamples) {
   for (const bool second : {false, true}) {
     const ForeignTable table = parse_foreign_table(tektronix(second), "tek.csv");
     EXPECT_THAT(table.assumptions, Contains("the instrument recorded CH1 in V"));
@@ -110,13 +114,15 @@ TEST(InstrumentTable, SettingsBesideSamplesAreNoSamples) {
     EXPECT_EQ(column(table, "time").values.size(), 30U);
     EXPECT_DOUBLE_EQ(column(table, "time").values[29], 0.058);
     EXPECT_DOUBLE_EQ(column(table, "CH1").values[29], 2.9);
-    if (second) EXPECT_DOUBLE_EQ(column(table, "CH2").values[29], -2.9);
+    if (second) {
+      EXPECT_DOUBLE_EQ(column(table, "CH2").values[29], -2.9);
+    }
     const auto guess = guess_columns(labels_of(table), {});
     EXPECT_EQ(guess.mappings.at("time").name, "time");
   }
 }
 
-TEST(InstrumentTable, ATimeThatIsMadeIsSaid) {
+TEST(InstrumentHead, ATimeThatIsMadeIsSaid) {
   const auto table =
       parse_foreign_table("Sample Interval,5,ms\nu,y\n1,2\n2,3\n3,4\n", "log");
   EXPECT_THAT(column(table, "time [s]").values, ElementsAre(0.0, 0.005, 0.01));
@@ -124,14 +130,23 @@ TEST(InstrumentTable, ATimeThatIsMadeIsSaid) {
 }
 
 /// Columns of a machine that are called so, with numbers in each row.
-TEST(InstrumentTable, ColumnsOfThatNameAreNoHead) {
+TEST(InstrumentHead, ColumnsOfThatNameAreNoHead) {
   const auto table =
       parse_foreign_table("t,u,Start,Increment\n0,1,2,3\n1,2,3,4\n2,3,4,5\n", "log");
   EXPECT_THAT(column(table, "Increment").values, ElementsAre(3.0, 4.0, 5.0));
   EXPECT_EQ(table.columns.size(), 4U);
 }
 
-TEST(InstrumentTable, ExponentsOfFortranAreNumbers) {
+/// The first rows may have empty cells; no sample is lost.
+TEST(InstrumentHead, IncompleteRowsAtTheBeginningAreRows) {
+  for (const auto* text : {"t,u,y\n0,,\n1,2,3\n2,,\n3,4,5\n4,5,6\n", "t;u;y\n0;;NaN\n1;-;3\n2;2;3\n3;4;5\n4;5;6\n"}) {
+    const auto table = parse_foreign_table(text, "log");
+    EXPECT_EQ(table.columns[0].name, "t");
+    EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 1.0, 2.0, 3.0, 4.0)) << text;
+  }
+}
+
+TEST(InstrumentHead, ExponentsOfFortranAreNumbers) {
   const auto table = parse_foreign_table(
       "t u y\n 0.000D+00 1.8000D-03 -1.0d+00\n 1.000D+00 1.9000D-03 2.5D0\n", "log");
   EXPECT_THAT(table.columns[1].values, ElementsAre(1.8e-3, 1.9e-3));

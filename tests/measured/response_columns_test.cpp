@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 const std::vector<Complex> kResponse = {{-9.2, -2.9}, {0.5, 0.25}, {1e-3, -2e-3}};
 const std::vector<double> kFrequency_Hz = {0.5, 4.0, 40.0};
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+constexpr double kWholeTurn_rad = 2.0 * std::numbers::pi;
 
 /// Rows of what `cells` makes of a frequency and its response.
 template <class Cells>
@@ -67,6 +67,8 @@ TEST(ResponseColumns, UsualHeadersArePartsOfAResponse) {
            Header{"Frequenz [Hz],Betrag [deg/Nm],Phase [rad]", false, false, "Betrag [deg/Nm]", "deg"},
            Header{"f,|H| [1],arg(H) [deg]", false, true, "|H| [1]", ""},
            Header{"Hz,magH1,phaseH1 (rad)", false, false, "H1", ""},
+           Header{"Frequency,Amplitude ratio (dB),Phase angle (deg)", true, true, "ratio", ""},
+           Header{"Frequency,Magnitude,Phase\nHz,dB,deg", true, true, "Magnitude", ""},
            Header{"frequency,hub_angle magnitude (dB re 1 rad/(N m)),hub_angle phase (deg)", true,
                   true, "hub_angle", "rad"},
            Header{"frequency,strain@0.05_mag (dB),strain@0.05_phase (deg)", true, true, "strain@0.05",
@@ -93,7 +95,7 @@ TEST(ResponseColumns, RealAndImaginaryPartsWithCoherenceAndAngularFrequency) {
     const auto table = parse_foreign_table(table_text(header,
                                                       [](double f, Complex h) {
                                                         return fmt::format("{:.17g};{};{};0.99",
-                                                                           kTurn_rad * f, h.real(),
+                                                                           kWholeTurn_rad * f, h.real(),
                                                                            h.imag());
                                                       }),
                                            "reim.csv");

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -45,7 +46,8 @@ ForeignColumn named(const std::string& name, string_view unit) {
 }
 
 bool is_number_at(const Cells& cells, std::size_t place, char decimal) {
-  return place < cells.size() && parse_cell(cells[place], decimal).has_value();
+  const auto number = place < cells.size() ? parse_cell(cells[place], decimal) : std::nullopt;
+  return number && std::isfinite(*number);
 }
 
 /// A line of names with Start and Increment, their numbers in the line below and in no other.
@@ -62,7 +64,9 @@ std::optional<CountedHeader> header_of_two_lines(const Cells& names, std::size_t
   const auto has_both = [&](const Cells& cells) {
     return is_number_at(cells, start, decimal) && is_number_at(cells, period, decimal);
   };
-  if (!has_both(below) || has_both(row)) return std::nullopt;
+  if (!has_both(below) || has_both(row) || !(*parse_cell(below[period], decimal) > 0.0)) {
+    return std::nullopt;
+  }
   CountedHeader header;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i == start || i == period) continue;

@@ -109,7 +109,7 @@ class SegmentJoiner {
     if (!has_x) {
       if (!(period_s_ > 0.0)) {
         throw InputError(
-            "no X_Value and no Delta_X above 0: the times are not told; export X_Value, or write "
+            "no X_Value and no Delta_X above 0 to tell the times; export X_Value, or write "
             "Delta_X");
       }
       shared = grid_points({starts.number_at(leading).value_or(0.0), period_s_}, rows);
@@ -197,14 +197,17 @@ class SegmentJoiner {
       const auto& channel = segment.channels[k];
       const auto& x = channel.x.empty() ? shared : channel.x;
       for (std::size_t row = 0; row < channel.values.size(); ++row) {
-        if (is_number(channel.values[row]) && is_number(x[row])) samples.push_back({x[row], k, row});
+        if (is_number(channel.values[row]) && std::isfinite(x[row])) {
+          samples.push_back({x[row], k, row});
+        }
       }
     }
     std::ranges::stable_sort(samples, {}, &Sample::x);
     constexpr double kSameTime_periods = 1e-3;
-    double last = -std::numeric_limits<double>::infinity();
+    double last = 0.0;
     for (const Sample& sample : samples) {
-      if (sample.x - last > kSameTime_periods * period_s_) {
+      const bool is_same = sample.x - last <= kSameTime_periods * period_s_;
+      if (&sample == &samples.front() || !is_same) {
         begin_row(sample.x + offset_s, segment.lines[sample.row]);
         last = sample.x;
       }

@@ -97,12 +97,12 @@ class SegmentReader {
     } else if (part_ == Part::rows) {
       read_row();
     } else if (part_ == Part::names || part_ == Part::between) {
-      if (part_ == Part::between) segments_.emplace_back();
       read_names();
     }
   }
 
   void read_names() {
+    if (segments_.empty() || !segments_.back().channels.empty()) segments_.emplace_back();
     LabviewSegment& segment = segments_.back();
     part_ = Part::rows;
     cells_before_ = 0;

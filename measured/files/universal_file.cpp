@@ -347,7 +347,7 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
                            : "has no data set 58, which holds time and frequency responses, nor 55, "
                              "which holds modes");
     }
-    file.functions = joined(std::move(file.functions));
+    if (!file.functions.empty()) file.functions = joined(std::move(file.functions));
   } catch (const InputError& error) {
     throw arm::located(error, file_name, cursor.line());
   }

@@ -148,7 +148,7 @@ TEST(LabviewText, WhatCannotBeReadIsOneLine) {
   EXPECT_EQ(refusal(file_head("One") + segment_head("12:00:01") + kNames + "0\tabc\t1\n1\t2\t3\n"),
             "a.lvm:22: column torque = abc: must be a number");
   EXPECT_THAT(refusal(file_head("No") + kNames + "\t1\t2\n\t3\t4\n"),
-              HasSubstr("no X_Value and no Delta_X above 0"));
+              HasSubstr("no X_Value and no Delta_X above 0 to tell the times"));
 }
 
 }  // namespace

@@ -314,9 +314,9 @@ measured::OwnRates ColumnChoice::own_rates() const {
   for (const std::string& text : own_rate) {
     const std::string option = fmt::format("--own-rate {}", arm::shown(text));
     const auto equals = std::min(text.find('='), text.size());
-    const auto word = std::ranges::find(
-        kWords, std::string_view(text).substr(std::min(equals + 1, text.size())),
-        [](const auto& entry) { return entry.first; });
+    const auto word =
+        std::ranges::find(kWords, std::string_view(text).substr(std::min(equals + 1, text.size())),
+                          [](const auto& entry) { return entry.first; });
     if (word == kWords.end()) {
       throw InputError(option + ": must be QUANTITY=hold, QUANTITY=linear or QUANTITY=rows");
     }

@@ -90,8 +90,8 @@ RunKind kind_of(const ForeignFile& file, std::optional<RunKind> given) {
         file.incomplete_response.empty() ? "no columns of a frequency response are recognised"
                                          : file.incomplete_response));
   }
-  throw InputError(fmt::format("--kind {}: the file contains {}", to_string(*given),
-                               content_of(kinds.front())));
+  throw InputError(
+      fmt::format("--kind {}: the file contains {}", to_string(*given), content_of(kinds.front())));
 }
 
 /// A table with texts in it as CSV, each row on the line that it has in the file.
@@ -156,12 +156,12 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
           fmt::format("{0}: {1}? Choose one with --column {0}=NAME", quantity,
                       arm::shown(fmt::format("{}", fmt::join(several->second, " or ")), 400)));
     }
-    throw InputError(
-        fmt::format("{0}: column not recognised; columns: {1}; assign one with --column "
-                    "{0}=NAME:UNIT:SCALE{2}{3}{4}",
-                    quantity, join_names(labels), otherwise,
-                    quantity == std::string_view("torque") ? asked(guess, true) : "",
-                    incomplete_response.empty() ? "" : "; no frequency response: " + incomplete_response));
+    throw InputError(fmt::format(
+        "{0}: column not recognised; columns: {1}; assign one with --column "
+        "{0}=NAME:UNIT:SCALE{2}{3}{4}",
+        quantity, join_names(labels), otherwise,
+        quantity == std::string_view("torque") ? asked(guess, true) : "",
+        incomplete_response.empty() ? "" : "; no frequency response: " + incomplete_response));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -259,17 +259,16 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     // The reference is no other quantity.
     if (const auto place = choice.columns.reference_place(labels)) to_guess[*place].is_text = true;
   }
-  auto guess = measured::guess_columns(
-      to_guess, choice.columns.mappings(labels, imported.assumptions));
+  auto guess =
+      measured::guess_columns(to_guess, choice.columns.mappings(labels, imported.assumptions));
   choice.columns.set_time_unit(guess.mappings);
   require_told(guess, labels, file.incomplete_response);
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
   auto used = measured::places_used(guess.mappings, names);
   if (choice.controller) {
-    imported.reference =
-        choice.columns.reference_column(labels, guess.mappings, *choice.controller,
-                                        imported.assumptions);
+    imported.reference = choice.columns.reference_column(labels, guess.mappings, *choice.controller,
+                                                         imported.assumptions);
     const auto more = measured::places_used({{"", imported.reference->mapping}}, names);
     used.insert(used.end(), more.begin(), more.end());
   }

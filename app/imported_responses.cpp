@@ -51,8 +51,8 @@ measured::ColumnMappings mappings_by_columns(const ForeignFile& file, const Colu
   for (auto& [quantity, mapping] : mappings) {
     const auto response = response_of(*measured::column_place(names, mapping.name));
     if (response == file.responses.end()) {
-      throw InputError(fmt::format("--column {}={}: no part of a response; those are in {}", quantity,
-                                   arm::shown(mapping.name), response_names(file)));
+      throw InputError(fmt::format("--column {}={}: no part of a response; those are in {}",
+                                   quantity, arm::shown(mapping.name), response_names(file)));
     }
     mapping.name = response->name;
   }

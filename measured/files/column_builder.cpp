@@ -47,12 +47,12 @@ void ColumnBuilder::add_cell(Column& column, string_view cell) const {
     values.push_back(kMissing);
     if (column.kind == Kind::stamps) column.stamps.emplace_back();
   } else if (column.kind == Kind::numbers || has_thousands_separators(cell, decimal_)) {
-    throw InputError(fmt::format(
-        "column {} = {}: {}", arm::shown(column.column.name), arm::shown(cell),
-        has_thousands_separators(cell, decimal_)
-            ? "has thousands separators; write the number without them"
-            : fmt::format("must be a number with a decimal {}, as in the rows above",
-                          decimal_ == ',' ? "comma" : "point")));
+    throw InputError(
+        fmt::format("column {} = {}: {}", arm::shown(column.column.name), arm::shown(cell),
+                    has_thousands_separators(cell, decimal_)
+                        ? "has thousands separators; write the number without them"
+                        : fmt::format("must be a number with a decimal {}, as in the rows above",
+                                      decimal_ == ',' ? "comma" : "point")));
   } else if (auto stamp = parse_time_stamp(cell)) {
     if (column.kind == Kind::open) {
       column.kind = Kind::stamps;
@@ -76,7 +76,8 @@ void ColumnBuilder::add_row(std::span<const string_view> cells, int line) {
 const ColumnBuilder::Column* ColumnBuilder::dates_for_clocks() const {
   const Column* found = nullptr;
   for (const auto& column : columns_) {
-    const auto first = std::ranges::find_if(column.stamps, [](const auto& stamp) { return !!stamp; });
+    const auto first =
+        std::ranges::find_if(column.stamps, [](const auto& stamp) { return !!stamp; });
     if (first == column.stamps.end() || (*first)->clock_ns) continue;
     if (found != nullptr) return nullptr;
     found = &column;
@@ -88,16 +89,16 @@ void ColumnBuilder::convert_stamps() {
   const Column* dates = dates_for_clocks();
   for (auto& column : columns_) {
     if (column.kind != Kind::stamps || &column == dates) continue;
-    const auto first = std::ranges::find_if(column.stamps, [](const auto& stamp) { return !!stamp; });
+    const auto first =
+        std::ranges::find_if(column.stamps, [](const auto& stamp) { return !!stamp; });
     const bool has_date = (*first)->has_date();
     if (!(*first)->clock_ns) {  // one of several columns of dates
       begin_texts(column);
       continue;
     }
     const bool is_completed = !has_date && dates != nullptr;
-    column.column.values =
-        is_completed ? seconds_since_first(column.stamps, dates->stamps)
-                     : seconds_since_first(column.stamps);
+    column.column.values = is_completed ? seconds_since_first(column.stamps, dates->stamps)
+                                        : seconds_since_first(column.stamps);
     column.column.unit = "s";
     column.column.is_stamp = true;
     assumptions_.push_back(fmt::format("{} is the time since {}{}", arm::shown(column.column.name),

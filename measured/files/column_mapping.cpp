@@ -60,8 +60,7 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
   }
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const bool is_free = !sources[i] && !table.columns[i].holds_nothing();
-    const auto standard =
-        is_free ? standard_mapping(table.columns[i].name) : ColumnMappings();
+    const auto standard = is_free ? standard_mapping(table.columns[i].name) : ColumnMappings();
     if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
     std::optional<Source> source = Source{standard.begin()->first, standard.begin()->second};
     const bool is_taken = std::ranges::any_of(

@@ -16,14 +16,14 @@
 namespace flexarm::measured {
 
 /// Which column of a foreign log is a quantity, and how its numbers become SI units:
-/// value [SI] = number in the column * scale * factor of `unit`. In place of a column, an expression
-/// of several (measured/files/column_expression.hpp).
+/// value [SI] = number in the column * scale * factor of `unit`. In place of a column, an
+/// expression of several (measured/files/column_expression.hpp).
 struct ColumnMapping {
   std::string name;    ///< of the column, as `column_place` takes it; empty with an expression
   std::string unit;    ///< one of `units_for` the quantity, or any other, which has no factor: then
                        ///< the scale carries into SI; empty: the SI unit
   double scale = 1.0;  ///< finite and not 0
-  std::string expression = {};    ///< in place of the name
+  std::string expression = {};   ///< in place of the name
   bool is_scale_stated = false;  ///< on the command line, of which a response to no torque asks
 
   bool operator==(const ColumnMapping&) const = default;

@@ -12,9 +12,10 @@ using std::string_view;
 using Word = string_view;
 
 constexpr Word kTimeWords[] = {"t", "time", "times", "timestamp", "elapsed", "elapsedtime",
-                              "datetime", "dateandtime", "xvalue",
+                               "datetime", "dateandtime", "xvalue",
                                // German
-                               "zeit", "uhrzeit", "datumuhrzeit", "datumzeit", "messzeit", "zeitstempel", "versuchszeit", "laufzeit",
+                               "zeit", "uhrzeit", "datumuhrzeit", "datumzeit", "messzeit",
+                               "zeitstempel", "versuchszeit", "laufzeit",
                                // French
                                "temps", "tempsecoule", "heure", "horodatage"};
 constexpr Word kTorqueWords[] = {

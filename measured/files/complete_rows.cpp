@@ -45,7 +45,8 @@ std::vector<UsedColumn> used_columns(const ForeignTable& table, const ColumnMapp
     if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
     if (!table.columns[i].holds_nothing()) add(i, standard.begin()->first, false);
   }
-  std::erase_if(used, [&](const UsedColumn& column) { return table.columns[column.place].is_text(); });
+  std::erase_if(used,
+                [&](const UsedColumn& column) { return table.columns[column.place].is_text(); });
   return used;
 }
 
@@ -53,9 +54,7 @@ class RowKeeper {
  public:
   RowKeeper(ForeignTable& table, const ColumnMappings& mappings, const ColumnMapping* reference,
             const OwnRates& own_rates)
-      : table_(table),
-        own_rates_(own_rates),
-        used_(used_columns(table, mappings, reference)) {}
+      : table_(table), own_rates_(own_rates), used_(used_columns(table, mappings, reference)) {}
 
   CompleteRows keep() {
     for (const auto& column : used_) require_numbers(column);
@@ -86,8 +85,9 @@ class RowKeeper {
       if (std::ranges::count(used_, quantity, &UsedColumn::quantity) > 0) continue;
       std::vector<std::string> names;
       for (const auto& column : used_) names.push_back(column.quantity);
-      throw InputError(fmt::format("--own-rate {}: no column of the file is this; those read are {}",
-                                   quantity, fmt::join(names, ", ")));
+      throw InputError(
+          fmt::format("--own-rate {}: no column of the file is this; those read are {}", quantity,
+                      fmt::join(names, ", ")));
     }
   }
 
@@ -181,8 +181,9 @@ class RowKeeper {
       if (is_complete(row)) kept_.rows.push_back(row);
     }
     if (kept_.rows.empty()) {
-      throw InputError(fmt::format("no row has a number in each of the columns {}",
-                                   arm::shown(fmt::format("{}", fmt::join(used_names(), ", ")), 400)));
+      throw InputError(
+          fmt::format("no row has a number in each of the columns {}",
+                      arm::shown(fmt::format("{}", fmt::join(used_names(), ", ")), 400)));
     }
     const std::size_t incomplete = kept_.rows_in_file - kept_.rows.size();
     if (incomplete == 0) return;

@@ -330,9 +330,8 @@ class EvenMaker {
     if (is_jittery) note(measured + "; samples taken as even, their times replaced");
     const double period_s = without_rounding(jitter.period_s);
     stretch.time_s = fitted_times(stretch.time_s, steps, period_s);
-    out_.stretches.push_back(missing > 0.0
-                                 ? resampled(stretch, period_s, options_.torque_hold)
-                                 : std::move(stretch));
+    out_.stretches.push_back(missing > 0.0 ? resampled(stretch, period_s, options_.torque_hold)
+                                           : std::move(stretch));
   }
 
   const EvenOptions& options_;

@@ -105,14 +105,13 @@ void add_responses(const std::vector<const UniversalFunction*>& functions, Forei
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const UniversalFunction& function = *functions[i];
     const ResponseUnit unit = split_response_unit(unit_of_axis(function.ordinate_axis, names[i]));
-    ForeignResponse response{names[i],
-                             unit.unit,
-                             unit.per.empty()
-                                 ? canonical_unit(told(function.denominator_axis.units))
-                                 : unit.per,
-                             function.abscissa,
-                             {},
-                             std::vector<double>(function.abscissa.size(), kUnknown)};
+    ForeignResponse response{
+        names[i],
+        unit.unit,
+        unit.per.empty() ? canonical_unit(told(function.denominator_axis.units)) : unit.per,
+        function.abscissa,
+        {},
+        std::vector<double>(function.abscissa.size(), kUnknown)};
     const double factor = hertz_of(function.abscissa_axis);
     for (auto& frequency : response.frequency_Hz) frequency *= factor;
     for (std::size_t k = 0; k < function.real.size(); ++k) {
@@ -284,10 +283,10 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
       }
     }
     if (record.channels.empty()) {
-      throw InputError(fmt::format(
-          "no response is mapped to a sensor; responses: {}; assign one with --column "
-          "hub_angle=NAME:UNIT:SCALE",
-          arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+      throw InputError(
+          fmt::format("no response is mapped to a sensor; responses: {}; assign one with --column "
+                      "hub_angle=NAME:UNIT:SCALE",
+                      arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
     }
     format_frequency_record(record);  // throws for what is out of range
   } catch (const InputError& error) {

@@ -24,18 +24,19 @@ struct ForeignFile {
   std::vector<ForeignResponse> responses;
   ModalTable modes;                   ///< poles of a universal file
   std::vector<std::string> left_out;  ///< what is neither, a phrase each
-  std::string incomplete_response;  ///< what a response in columns lacks; empty: there is none
+  std::string incomplete_response;    ///< what a response in columns lacks; empty: there is none
 };
 
 /// Reads a file by what it begins with: a universal file, a MATLAB 5 file, or delimited text.
 ///
 /// Universal files: time responses (function type 1) on the abscissa of the first, frequency
-/// responses (4) with their coherences (6), and the poles of modes (data set 55). MATLAB files: vectors, and the columns of matrices, as
-/// name(:,k), that are real are signals; complex ones as long as a vector called frequency, freq,
-/// f (Hz) or omega, w (rad/s) are responses. What `mat_variables`
-/// (measured/files/record_export.hpp) made of a record has the record's names.
+/// responses (4) with their coherences (6), and the poles of modes (data set 55). MATLAB files:
+/// vectors, and the columns of matrices, as name(:,k), that are real are signals; complex ones as
+/// long as a vector called frequency, freq, f (Hz) or omega, w (rad/s) are responses. What
+/// `mat_variables` (measured/files/record_export.hpp) made of a record has the record's names.
 ///
-/// Of a text or a MATLAB file, responses stand in columns, too (measured/files/response_columns.hpp).
+/// Of a text or a MATLAB file, responses stand in columns, too
+/// (measured/files/response_columns.hpp).
 ///
 /// Throws InputError as the readers do, and `FILE: ...` for a file without either.
 ForeignFile read_foreign_file(const std::filesystem::path& path);

@@ -14,7 +14,7 @@ struct ForeignResponse {
   std::string per;   ///< unit of what it is a response to; empty: not told
   std::vector<double> frequency_Hz;
   std::vector<std::complex<double>> response;
-  std::vector<double> coherence;  ///< NaN where unknown
+  std::vector<double> coherence;          ///< NaN where unknown
   std::vector<std::size_t> columns = {};  ///< of the table that it was made of; empty: of none
 };
 

@@ -340,8 +340,9 @@ class TableReader {
     if (settings.period_s) {
       assume(fmt::format("times begin at {} s and are {} s apart, as line {} tells",
                          settings.start_s, *settings.period_s, settings.line));
-      ForeignColumn times{"time [s]", "s", grid_points({settings.start_s, *settings.period_s},
-                                                       table_.line_of_row.size())};
+      ForeignColumn times{
+          "time [s]", "s",
+          grid_points({settings.start_s, *settings.period_s}, table_.line_of_row.size())};
       times.is_made = true;
       table_.columns.push_back(std::move(times));
     }
@@ -376,8 +377,7 @@ bool is_time_column(const ForeignColumn& column) {
 }
 
 bool ForeignColumn::holds_nothing() const {
-  return !is_text() &&
-         std::ranges::all_of(values, [](double value) { return std::isnan(value); });
+  return !is_text() && std::ranges::all_of(values, [](double value) { return std::isnan(value); });
 }
 
 std::size_t find_column(const ForeignTable& table, string_view name) {

@@ -113,7 +113,7 @@ void read_key(const Cells& cells, std::size_t block, Settings& settings) {
 }
 
 bool begins_settings(string_view cell) {
-  constexpr std::array<string_view, 6> kKeys = {"recordlength", "sampleinterval", "model",
+  constexpr std::array<string_view, 6> kKeys = {"recordlength", "sampleinterval",  "model",
                                                 "triggerpoint", "firmwareversion", "source"};
   return std::ranges::count(kKeys, plain_letters(cell)) > 0;
 }

@@ -37,8 +37,8 @@ struct SettingsBeside {
 };
 
 /// What the settings tell of the two columns behind them, a time and a signal, becomes the name of
-/// these where `columns` has none, and the unit of the time. That of the signal is said alone: it is
-/// the instrument's, not the quantity's.
+/// these where `columns` has none, and the unit of the time. That of the signal is said alone: it
+/// is the instrument's, not the quantity's.
 SettingsBeside settings_beside(std::span<const TextLine> rows, LineSplitter& splitter, char decimal,
                                std::vector<ForeignColumn>& columns);
 

@@ -253,15 +253,15 @@ class SegmentJoiner {
 
   void finish(const std::vector<LabviewSegment>& segments) {
     const std::size_t rows = table_.line_of_row.size();
-    table_.assumptions.insert(
-        table_.assumptions.begin(),
-        fmt::format("LabVIEW measurement file, {} segment{}", segments.size(),
-                    segments.size() == 1 ? "" : "s"));
+    table_.assumptions.insert(table_.assumptions.begin(),
+                              fmt::format("LabVIEW measurement file, {} segment{}", segments.size(),
+                                          segments.size() == 1 ? "" : "s"));
     if (!period_is_used_) return;
     const auto told = TagValues(segments.front(), "Samples").number_at(0);
     say(fmt::format("no X_Value; times are those of X0 and Delta_X, {} s", period_s_));
     if (segments.size() == 1 && told && *told > 1.0 && *told < static_cast<double>(rows)) {
-      say(fmt::format("the head tells {} samples, {} rows follow; they are taken as one stretch "
+      say(
+          fmt::format("the head tells {} samples, {} rows follow; they are taken as one stretch "
                       "without a pause",
                       *told, rows));
     }
@@ -275,7 +275,8 @@ class SegmentJoiner {
     constexpr double kDigits = 1e6;  // Delta_X has six behind the point
     if (std::abs(rate_Hz - std::round(rate_Hz)) < kWhole * rate_Hz) return;
     for (const double rate : {std::exp2(std::round(std::log2(rate_Hz))), std::round(rate_Hz)}) {
-      if (std::round(kDigits / rate) != std::round(kDigits * period_s_) || period_s_ < 1e-4) continue;
+      if (std::round(kDigits / rate) != std::round(kDigits * period_s_) || period_s_ < 1e-4)
+        continue;
       say(fmt::format("Delta_X = {} s may be a rounded 1/{} s; if so, state --period {:.9g}",
                       period_s_, rate, 1.0 / rate));
       return;
@@ -288,7 +289,7 @@ class SegmentJoiner {
   }
 
   ForeignTable table_;
-  std::vector<std::string> names_;    ///< of the segment added last,
+  std::vector<std::string> names_;   ///< of the segment added last,
   std::vector<std::size_t> places_;  ///< and the columns of its channels
   double period_s_ = 0.0;
   bool period_is_used_ = false;

@@ -35,11 +35,25 @@ constexpr string_view kEndSpecial = "***End_Special***";
 
 /// Tags that begin a line of the head of a segment.
 bool is_segment_tag(string_view cell) {
-  constexpr std::array<string_view, 19> kTags = {
-      "Channels",     "Samples",     "Date",         "Time",        "Notes",
-      "Test_Name",    "Test_Number", "Test_Numbers", "Test_Series", "UUT_M/N",
-      "UUT_S/N",      "UUT_Name",    "Model_Number", "Serial_Number", "Y_Unit_Label",
-      "Y_Dimension",  "X_Unit_Label", "X_Dimension", "X0"};
+  constexpr std::array<string_view, 19> kTags = {"Channels",
+                                                 "Samples",
+                                                 "Date",
+                                                 "Time",
+                                                 "Notes",
+                                                 "Test_Name",
+                                                 "Test_Number",
+                                                 "Test_Numbers",
+                                                 "Test_Series",
+                                                 "UUT_M/N",
+                                                 "UUT_S/N",
+                                                 "UUT_Name",
+                                                 "Model_Number",
+                                                 "Serial_Number",
+                                                 "Y_Unit_Label",
+                                                 "Y_Dimension",
+                                                 "X_Unit_Label",
+                                                 "X_Dimension",
+                                                 "X0"};
   return cell == "Delta_X" || std::ranges::count(kTags, cell) > 0;
 }
 
@@ -132,8 +146,8 @@ class SegmentReader {
     LabviewSegment& segment = segments_.back();
     const std::size_t channels = segment.channels.size();
     // Without X_Value the separator in front may be missing.
-    const bool is_shifted = segment.is_without_x && !cells_.front().empty() &&
-                            cells_.size() <= channels;
+    const bool is_shifted =
+        segment.is_without_x && !cells_.front().empty() && cells_.size() <= channels;
     for (std::size_t i = 0; i < segment.cell_kinds.size(); ++i) {
       const std::size_t place = is_shifted ? i - 1 : i;
       const string_view cell = place < cells_.size() ? cells_[place] : string_view();

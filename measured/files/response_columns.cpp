@@ -39,19 +39,18 @@ struct Parts {
   const std::optional<PartColumn>& operator[](ResponsePart part) const {
     return of_kind[static_cast<std::size_t>(part)];
   }
-  bool is_polar() const {
-    return (*this)[ResponsePart::magnitude] && (*this)[ResponsePart::phase];
+  bool is_polar() const { return (*this)[ResponsePart::magnitude] && (*this)[ResponsePart::phase]; }
+  bool is_cartesian() const {
+    return (*this)[ResponsePart::real] && (*this)[ResponsePart::imaginary];
   }
-  bool is_cartesian() const { return (*this)[ResponsePart::real] && (*this)[ResponsePart::imaginary]; }
 
   /// What is missing; empty for a whole response.
   std::string missing() const {
     if (is_polar() || is_cartesian()) return "";
-    for (const auto& [has, lacks] :
-         {std::pair{ResponsePart::magnitude, ResponsePart::phase},
-          std::pair{ResponsePart::phase, ResponsePart::magnitude},
-          std::pair{ResponsePart::real, ResponsePart::imaginary},
-          std::pair{ResponsePart::imaginary, ResponsePart::real}}) {
+    for (const auto& [has, lacks] : {std::pair{ResponsePart::magnitude, ResponsePart::phase},
+                                     std::pair{ResponsePart::phase, ResponsePart::magnitude},
+                                     std::pair{ResponsePart::real, ResponsePart::imaginary},
+                                     std::pair{ResponsePart::imaginary, ResponsePart::real}}) {
       if ((*this)[has]) return fmt::format("{} without {}", to_string(has), to_string(lacks));
     }
     return "coherence alone";
@@ -73,16 +72,18 @@ std::vector<Parts> gathered(const std::vector<PartColumn>& parts, std::vector<st
     auto& place = found->of_kind[static_cast<std::size_t>(part.part)];
     const bool is_better = !place || (is_decibel(part.unit) && !is_decibel(place->unit));
     if (place) {
-      notes.push_back(fmt::format("{} of columns: {} is taken, {} is not", to_string(part.part),
-                                  arm::shown(table.columns[(is_better ? part : *place).column].name),
-                                  arm::shown(table.columns[(is_better ? *place : part).column].name)));
+      notes.push_back(
+          fmt::format("{} of columns: {} is taken, {} is not", to_string(part.part),
+                      arm::shown(table.columns[(is_better ? part : *place).column].name),
+                      arm::shown(table.columns[(is_better ? *place : part).column].name)));
     }
     if (is_better) place = part;
   }
   return all;
 }
 
-/// A coherence that names no response belongs to the only one, or, of as many, to that in its order.
+/// A coherence that names no response belongs to the only one, or, of as many, to that in its
+/// order.
 void join_coherences(std::vector<Parts>& all) {
   std::vector<Parts> alone;
   std::vector<Parts> responses;
@@ -111,7 +112,8 @@ class ResponseMaker {
       : table_(table), frequency_(frequency) {}
 
   ForeignResponse make(const Parts& parts) {
-    const auto& first = parts.is_polar() ? parts[ResponsePart::magnitude] : parts[ResponsePart::real];
+    const auto& first =
+        parts.is_polar() ? parts[ResponsePart::magnitude] : parts[ResponsePart::real];
     const auto& second =
         parts.is_polar() ? parts[ResponsePart::phase] : parts[ResponsePart::imaginary];
     const auto& coherence = parts[ResponsePart::coherence];
@@ -132,9 +134,9 @@ class ResponseMaker {
       const double b = value(*second, line);
       constexpr double kDecibels = 20.0;
       made.frequency_Hz.push_back(value(frequency_, line) * hertz());
-      made.response.push_back(
-          is_polar ? std::polar(1.0, b * radian) * (is_in_decibel ? std::pow(10.0, a / kDecibels) : a)
-                   : std::complex<double>(a, b));
+      made.response.push_back(is_polar ? std::polar(1.0, b * radian) *
+                                             (is_in_decibel ? std::pow(10.0, a / kDecibels) : a)
+                                       : std::complex<double>(a, b));
       const double coherent = coherence ? value(*coherence, line) : kUnknown;
       made.coherence.push_back(coherent > 0.0 && coherent <= 1.0 ? coherent : kUnknown);
     }
@@ -188,20 +190,20 @@ class ResponseMaker {
     if (part.unit == "rad") return 1.0;
     if (part.unit == "mrad") return 1e-3;
     if (!part.unit.empty()) {
-      throw InputError(fmt::format("phase {} in {}: must be in deg or rad", shown(part),
-                                   arm::shown(part.unit)));
+      throw InputError(
+          fmt::format("phase {} in {}: must be in deg or rad", shown(part), arm::shown(part.unit)));
     }
     double largest = 0.0;
     for (const double value : table_.columns[part.column].values) {
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     }
-    constexpr double kMostRadians = 6.3;    // a turn
+    constexpr double kMostRadians = 6.3;     // a turn
     constexpr double kFewestDegrees = 30.0;  // five turns, which no arm has in its band
     if (largest > kMostRadians && largest < kFewestDegrees) {
-      throw InputError(fmt::format(
-          "phase {}: unit not given, deg or rad; state it with --column "
-          "'SENSOR.phase={}:deg', beside frequency and SENSOR.magnitude",
-          shown(part), shown(part)));
+      throw InputError(
+          fmt::format("phase {}: unit not given, deg or rad; state it with --column "
+                      "'SENSOR.phase={}:deg', beside frequency and SENSOR.magnitude",
+                      shown(part), shown(part)));
     }
     const bool is_degrees = largest >= kFewestDegrees;
     note(fmt::format("unit of {} not given; {} assumed", shown(part), is_degrees ? "deg" : "rad"));
@@ -309,9 +311,9 @@ ResponseColumns responses_in(const ForeignTable& table) {
       made.responses.push_back(maker.make(response));
       continue;
     }
-    made.incomplete = fmt::format(
-        "response {}: {}", response.name.empty() ? "without a name" : arm::shown(response.name),
-        missing);
+    made.incomplete =
+        fmt::format("response {}: {}",
+                    response.name.empty() ? "without a name" : arm::shown(response.name), missing);
     made.notes.push_back(made.incomplete + "; left out");
   }
   if (all.empty()) {

@@ -16,21 +16,23 @@ namespace {
 
 using std::string_view;
 
-constexpr string_view kMagnitudeWords[] = {"mag",     "magn",   "magnitude",    "amplitude",
-                                    "ampl",    "amp",    "gain",         "abs",
-                                    "modulus", "betrag", "verstaerkung", "amplitudengang",
-                                    "module",  "logmag", "magnitud",     "mod"};
+constexpr string_view kMagnitudeWords[] = {
+    "mag",     "magn",   "magnitude",    "amplitude",      "ampl",   "amp",    "gain",     "abs",
+    "modulus", "betrag", "verstaerkung", "amplitudengang", "module", "logmag", "magnitud", "mod"};
 constexpr string_view kPhaseWords[] = {"phase", "phas",       "ph",           "arg", "argument",
-                                "phi",   "phasengang", "phasenwinkel", "pha"};
+                                       "phi",   "phasengang", "phasenwinkel", "pha"};
 constexpr string_view kRealWords[] = {"re", "real", "realteil", "reel", "realpart", "reelle"};
-constexpr string_view kImaginaryWords[] = {"im",           "imag",       "imaginary",
-                                    "imaginaerteil", "imaginaire", "imagpart"};
+constexpr string_view kImaginaryWords[] = {"im",         "imag",    "imaginary", "imaginaerteil",
+                                           "imaginaire", "imagpart"};
 constexpr string_view kCoherenceWords[] = {"coh", "coherence", "kohaerenz", "gamma"};
 /// Words beside those of a part that tell nothing more.
-constexpr string_view kFillers[] = {"part", "of", "log", "lin", "linear", "teil", "partie", "squared"};
-constexpr string_view kFrequencyWords[] = {"f",        "freq",      "freqs", "frequency", "frequencies",
-                                    "frequenz", "frequence", "hz",    "hertz",     "xvalue"};
-constexpr string_view kRadianWords[] = {"w", "omega", "angularfrequency", "kreisfrequenz", "pulsation"};
+constexpr string_view kFillers[] = {"part",   "of",   "log",    "lin",
+                                    "linear", "teil", "partie", "squared"};
+constexpr string_view kFrequencyWords[] = {"f",           "freq",     "freqs",     "frequency",
+                                           "frequencies", "frequenz", "frequence", "hz",
+                                           "hertz",       "xvalue"};
+constexpr string_view kRadianWords[] = {"w", "omega", "angularfrequency", "kreisfrequenz",
+                                        "pulsation"};
 
 constexpr std::array<std::pair<ResponsePart, std::span<const string_view>>, 5> kParts = {{
     {ResponsePart::magnitude, kMagnitudeWords},
@@ -115,8 +117,8 @@ bool is_part_unit(const std::string& unit) {
 /// The name behind the structure that it is a field of.
 string_view field_of(const ForeignTable& table, string_view name) {
   const auto point = name.rfind('.');
-  const bool is_field = table.line_of_row.empty() && point != string_view::npos &&
-                        point + 1 < name.size();
+  const bool is_field =
+      table.line_of_row.empty() && point != string_view::npos && point + 1 < name.size();
   return is_field ? name.substr(point + 1) : name;
 }
 
@@ -176,7 +178,8 @@ std::vector<PartColumn> response_parts(const ForeignTable& table) {
   for (std::size_t i = 0; i < table.columns.size() && parts.empty(); ++i) {
     const ForeignColumn& column = table.columns[i];
     std::string unit;
-    if (column.is_text() || !is_frequency(field_of(table, column.name), column.unit, unit)) continue;
+    if (column.is_text() || !is_frequency(field_of(table, column.name), column.unit, unit))
+      continue;
     parts.push_back({ResponsePart::frequency, "", i, unit});
   }
   if (parts.empty()) return parts;

@@ -18,17 +18,33 @@ namespace {
 
 using std::string_view;
 
-constexpr std::array<string_view, 22> kPeriodNames = {
-    "sampleinterval", "samplinginterval", "sampleperiod",    "samplingperiod", "sampletime",
-    "samplingtime",   "increment",        "xincrement",      "xincr",          "tinc",
-    "timeincrement",  "timestep",         "deltax",          "deltat",         "dt",
-    "dx",             "hresolution",      "abtastintervall", "abtastzeit",     "abtastperiode",
-    "timeinterval",   "periodeechantillonnage"};
+constexpr std::array<string_view, 22> kPeriodNames = {"sampleinterval",
+                                                      "samplinginterval",
+                                                      "sampleperiod",
+                                                      "samplingperiod",
+                                                      "sampletime",
+                                                      "samplingtime",
+                                                      "increment",
+                                                      "xincrement",
+                                                      "xincr",
+                                                      "tinc",
+                                                      "timeincrement",
+                                                      "timestep",
+                                                      "deltax",
+                                                      "deltat",
+                                                      "dt",
+                                                      "dx",
+                                                      "hresolution",
+                                                      "abtastintervall",
+                                                      "abtastzeit",
+                                                      "abtastperiode",
+                                                      "timeinterval",
+                                                      "periodeechantillonnage"};
 constexpr std::array<string_view, 8> kRateNames = {
-    "samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fs",
-    "abtastrate", "abtastfrequenz", "frequenceechantillonnage"};
-constexpr std::array<string_view, 6> kStartNames = {"start", "x0", "t0", "xorigin", "xzero",
-                                                    "xstart"};
+    "samplerate", "samplingrate", "samplefrequency", "samplingfrequency",
+    "fs",         "abtastrate",   "abtastfrequenz",  "frequenceechantillonnage"};
+constexpr std::array<string_view, 6> kStartNames = {"start",   "x0",    "t0",
+                                                    "xorigin", "xzero", "xstart"};
 
 bool is_one_of(std::span<const string_view> names, string_view words) {
   return std::ranges::count(names, words) > 0;

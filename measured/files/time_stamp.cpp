@@ -123,7 +123,9 @@ bool read_date(string_view text, TimeStamp& stamp) {
   std::array<string_view, 3> parts;
   std::size_t named = parts.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto is_of_name = [](char c) { return is_of_word(c) || static_cast<unsigned char>(c) > 127; };
+    const auto is_of_name = [](char c) {
+      return is_of_word(c) || static_cast<unsigned char>(c) > 127;
+    };
     parts[i] = rest.digits();
     if (parts[i].empty() && named == parts.size()) {
       parts[i] = rest.take_while(is_of_name);
@@ -308,7 +310,8 @@ std::vector<double> seconds_since_first(std::span<const std::optional<TimeStamp>
   auto month_first =
       nanoseconds_of(stamps, dates, [](const TimeStamp& date) { return date.month_first; });
   if (span_of(month_first) < span_of(times_ns)) times_ns = std::move(month_first);
-  const auto first = std::ranges::find_if(stamps, [](const auto& stamp) { return stamp.has_value(); });
+  const auto first =
+      std::ranges::find_if(stamps, [](const auto& stamp) { return stamp.has_value(); });
   const bool has_dates = !dates.empty() || (first != stamps.end() && (*first)->has_date());
   const std::int64_t turn_ns = first != stamps.end() && (*first)->has_hours ? kDay_ns : kHour_ns;
   std::vector<double> seconds;

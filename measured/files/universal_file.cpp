@@ -342,10 +342,11 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
       }
     }
     if (file.functions.empty() && file.modes.empty()) {
-      throw InputError(file.passed_over.empty()
-                           ? "empty; must have one data set 58 or more"
-                           : "has no data set 58, which holds time and frequency responses, nor 55, "
-                             "which holds modes");
+      throw InputError(
+          file.passed_over.empty()
+              ? "empty; must have one data set 58 or more"
+              : "has no data set 58, which holds time and frequency responses, nor 55, "
+                "which holds modes");
     }
     if (!file.functions.empty()) file.functions = joined(std::move(file.functions));
   } catch (const InputError& error) {

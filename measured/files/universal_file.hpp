@@ -78,8 +78,9 @@ struct UniversalOptions {
   bool single_precision = false;
 };
 
-/// Reads every data set 55 (measured/files/universal_modes.hpp), 58 and 58b: text and binary (IEEE 754, little and big endian), even and
-/// uneven abscissa, real and complex, single and double precision.
+/// Reads every data set 55 (measured/files/universal_modes.hpp), 58 and 58b: text and binary (IEEE
+/// 754, little and big endian), even and uneven abscissa, real and complex, single and double
+/// precision.
 ///
 /// Throws InputError `FILE:LINE: what is wrong` for a file that cannot be read, is no universal
 /// file or is cut off, and for numbers that are none or not finite; lines count as far as the text

@@ -98,19 +98,22 @@ TEST_F(ImportKinds, EmptyCellsAreMissingSamples) {
 TEST_F(ImportKinds, ATorqueOfItsOwnRateIsHeldWhereThatIsStated) {
   std::string text = "t [s],torque [N m],hub_angle [rad]\n";
   for (int k = 0; k < 100; ++k) {
-    text += fmt::format("{:.3f},{},{}\n", 0.001 * k, k % 5 == 0 ? fmt::format("{}", k) : "", 0.1 * k);
+    text +=
+        fmt::format("{:.3f},{},{}\n", 0.001 * k, k % 5 == 0 ? fmt::format("{}", k) : "", 0.1 * k);
   }
   write("rates.csv", text);
-  expect_refused(import({"rates.csv"}),
-                 "rates.csv: torque: column torque [N m] has a number in one of 5 rows alone, written "
-                 "at its own rate; state what stands between with --own-rate torque=hold (the "
-                 "number above), torque=linear, or torque=rows (only the rows that have all numbers)");
+  expect_refused(
+      import({"rates.csv"}),
+      "rates.csv: torque: column torque [N m] has a number in one of 5 rows alone, written "
+      "at its own rate; state what stands between with --own-rate torque=hold (the "
+      "number above), torque=linear, or torque=rows (only the rows that have all numbers)");
   const auto held = record({"rates.csv", "--own-rate", "torque=hold"});
   ASSERT_EQ(held.time_s.size(), 100U);
   EXPECT_EQ(held.torque_N_m[9], 5.0);
   EXPECT_EQ(record({"rates.csv", "--own-rate", "torque=rows"}).time_s.size(), 20U);
-  expect_refused(import({"rates.csv", "--own-rate", "torque=maybe"}),
-                 "--own-rate torque=maybe: must be QUANTITY=hold, QUANTITY=linear or QUANTITY=rows");
+  expect_refused(
+      import({"rates.csv", "--own-rate", "torque=maybe"}),
+      "--own-rate torque=maybe: must be QUANTITY=hold, QUANTITY=linear or QUANTITY=rows");
 }
 
 TEST_F(ImportKinds, AScaleIsInItsUnit) {
@@ -118,15 +121,17 @@ TEST_F(ImportKinds, AScaleIsInItsUnit) {
   for (int k = 0; k < 20; ++k) text += fmt::format("{},{},90\n", 2 * k, k);
   write("scale.csv", text);
   const auto angle = [&](const std::string& column) {
-    return record({"scale.csv", "--column", column, "--column", "time=t:ms", "--column", "torque=tau"})
+    return record(
+               {"scale.csv", "--column", column, "--column", "time=t:ms", "--column", "torque=tau"})
         .channels.front()
         .values.front();
   };
   constexpr double kPi = std::numbers::pi;
   EXPECT_DOUBLE_EQ(angle("hub_angle=th:deg"), kPi / 2.0);
   EXPECT_DOUBLE_EQ(angle("hub_angle=th:deg:pi/180"), kPi / 2.0);
-  EXPECT_THAT(output_, HasSubstr("hub_angle: SCALE 0.0174533 is the conversion of deg itself; applied "
-                                 "once"));
+  EXPECT_THAT(output_,
+              HasSubstr("hub_angle: SCALE 0.0174533 is the conversion of deg itself; applied "
+                        "once"));
   EXPECT_DOUBLE_EQ(angle("hub_angle=th:deg:-0.01745"), -kPi / 2.0);
   EXPECT_DOUBLE_EQ(angle("hub_angle=th:deg:2"), kPi);
   EXPECT_DOUBLE_EQ(angle("hub_angle=th:mrad:0.001"), 0.09);
@@ -159,7 +164,8 @@ void expect_compliance(const FrequencyRecord& record, double factor = 1.0) {
   ASSERT_EQ(channel.response.size(), 100U);
   for (std::size_t k = 0; k < 100; ++k) {
     const Complex right = factor * compliance(channel.frequency_Hz[k]);
-    EXPECT_LT(std::abs(channel.response[k] - right), 1e-9 * std::abs(right));  // 10 digits in the file
+    EXPECT_LT(std::abs(channel.response[k] - right),
+              1e-9 * std::abs(right));  // 10 digits in the file
   }
 }
 
@@ -181,7 +187,8 @@ TEST_F(ImportKinds, FrequencyResponsesInColumnsAreRead) {
   const auto record = response({"reim.csv", "--kind", "frf", "--column", "hub_angle=Real"});
   expect_compliance(record);
   EXPECT_EQ(record.channels[0].coherence[7], 0.99);
-  write("named.csv", response_text("f,hub_angle_re [rad/(N m)],hub_angle_im,hub_angle_coh", cartesian));
+  write("named.csv",
+        response_text("f,hub_angle_re [rad/(N m)],hub_angle_im,hub_angle_coh", cartesian));
   expect_compliance(response({"named.csv"}));
   EXPECT_THAT(output_, Not(HasSubstr("warning")));
   write("plain.csv", response_text("a,b,c", polar));
@@ -220,9 +227,10 @@ TEST_F(ImportKinds, UnitsOfResponsesAreTakenApart) {
     expect_compliance(response({"r.uff"}), factor);
   }
   write("r.uff", universal_text("tip_acceleration", "(m/s^2)/N"));
-  expect_refused(import({"r.uff"}),
-                 "r.uff: tip_acceleration: a response to N, not to a torque; state its scale in N per "
-                 "N m, as in --column 'tip_acceleration=tip_acceleration:m/s^2:SCALE'");
+  expect_refused(
+      import({"r.uff"}),
+      "r.uff: tip_acceleration: a response to N, not to a torque; state its scale in N per "
+      "N m, as in --column 'tip_acceleration=tip_acceleration:m/s^2:SCALE'");
   const auto scaled = response({"r.uff", "--column", "tip_acceleration=tip_acceleration:m/s^2:2"});
   EXPECT_NEAR(scaled.channels[0].response[0].real(), 2.0 * compliance(0.5).real(), 1e-12);
   write("r.uff", universal_text("sensor 7", "furlong"));
@@ -241,8 +249,9 @@ TEST_F(ImportKinds, ModesOfAUniversalFileAreAModalTable) {
     return text + "\n         1\n  1.00000E+00  0.00000E+00  0.00000E+00\n    -1\n";
   };
   const double w_rad_per_s = 2.0 * std::numbers::pi * 30.0;
-  write("modes.uff", mode(2, 1, {0.0, 1.0, 0.0, 0.0}) + mode(2, 2, {11.86, 1.0, 0.006, 0.0}) +
-                         mode(3, 3, {-0.02 * w_rad_per_s, w_rad_per_s * std::sqrt(1.0 - 4e-4), 0, 0, 0, 0}));
+  write("modes.uff",
+        mode(2, 1, {0.0, 1.0, 0.0, 0.0}) + mode(2, 2, {11.86, 1.0, 0.006, 0.0}) +
+            mode(3, 3, {-0.02 * w_rad_per_s, w_rad_per_s * std::sqrt(1.0 - 4e-4), 0, 0, 0, 0}));
   const auto run = imported({"modes.uff"});
   const auto& table = std::get<measured::ModalTable>(run.data);
   ASSERT_EQ(table.size(), 2U);
@@ -250,7 +259,8 @@ TEST_F(ImportKinds, ModesOfAUniversalFileAreAModalTable) {
   EXPECT_DOUBLE_EQ(*table[0].damping_ratio, 0.006);
   EXPECT_NEAR(*table[1].frequency_Hz, 30.0, 1e-4);  // six digits in the file
   EXPECT_NEAR(*table[1].damping_ratio, 0.02, 1e-6);
-  EXPECT_THAT(output_, AllOf(HasSubstr("mode 1 at 0 Hz, of the rigid body"), HasSubstr("shape of mode 2")));
+  EXPECT_THAT(output_,
+              AllOf(HasSubstr("mode 1 at 0 Hz, of the rigid body"), HasSubstr("shape of mode 2")));
 }
 
 TEST_F(ImportKinds, ClockTimesPastMidnightAreEven) {

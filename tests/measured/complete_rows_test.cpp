@@ -14,9 +14,8 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const ColumnMappings kMappings = {{"time", {"t", "s", 1.0}},
-                                  {"torque", {"u", "N m", 1.0}},
-                                  {"hub_angle", {"y", "rad", 1.0}}};
+const ColumnMappings kMappings = {
+    {"time", {"t", "s", 1.0}}, {"torque", {"u", "N m", 1.0}}, {"hub_angle", {"y", "rad", 1.0}}};
 
 CompleteRows keep(ForeignTable& table, const OwnRates& rates = {},
                   const ColumnMapping* reference = nullptr,
@@ -43,8 +42,9 @@ TEST(CompleteRows, ARowWithAnEmptyCellIsNone) {
   EXPECT_FALSE(kept.is_driven_before);
   EXPECT_THAT(table.columns[2].values, ElementsAre(2.0, 6.0, 8.0, 9.0));
   EXPECT_THAT(table.line_of_row, ElementsAre(2, 6, 8, 9));
-  EXPECT_THAT(kept.notes, ElementsAre("4 of 8 rows left out, as missing samples: a cell is empty or "
-                                      "no number (first of u in line 3)"));
+  EXPECT_THAT(kept.notes,
+              ElementsAre("4 of 8 rows left out, as missing samples: a cell is empty or "
+                          "no number (first of u in line 3)"));
 }
 
 TEST(CompleteRows, ColumnsThatAreNotUsedDoNotMatter) {
@@ -101,7 +101,7 @@ TEST(CompleteRows, WhatHasNoNumberIsSaid) {
   EXPECT_EQ(refused_rows("t,u,y\n0,1,\n1,1,\n2,1,\n"),
             "hub_angle: column y has no number in any row; take another one");
   EXPECT_EQ(refused_rows("t,u,y\n0,1,\n1,,2\n2,1,\n3,,3\n",
-                    {{"torque", Between::rows}, {"hub_angle", Between::rows}}),
+                         {{"torque", Between::rows}, {"hub_angle", Between::rows}}),
             "no row has a number in each of the columns y, t, u");
   EXPECT_THAT(refused_rows("t,u,y\n0,1,1\n1,1,2\n", {{"tip_deflection", Between::hold}}),
               HasSubstr("--own-rate tip_deflection: no column of the file is this"));

@@ -56,28 +56,30 @@ INSTANTIATE_TEST_SUITE_P(
                "X,CH1,CH2,Start,Increment,\nSequence,Volt,Volt,-1.0e-1,2.0e-03\n0,1,4,,\n1,2,5,,\n"
                "2,3,6,,\n",
                "CH1", "CH2"},
-        Layout{"RigolWithShortRows",
-               "X,CH1,CH2,Start,Increment\nSequence,Volt,Volt,-1.0e-1,2.0e-03\n0,1,4\n1,2,5\n2,3,6\n",
-               "CH1", "CH2"},
-        Layout{"RigolInOneLine",
-               "CH1V,CH2V,t0 = -1.0e-01, tInc = 2.0e-03,\n1,4\n2,5\n3,6\n", "CH1V", "CH2V"},
-        Layout{"RigolWithSeconds", "X,CH1,CH2\nSecond,Volt,Volt\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n",
-               "CH1", "CH2"},
+        Layout{
+            "RigolWithShortRows",
+            "X,CH1,CH2,Start,Increment\nSequence,Volt,Volt,-1.0e-1,2.0e-03\n0,1,4\n1,2,5\n2,3,6\n",
+            "CH1", "CH2"},
+        Layout{"RigolInOneLine", "CH1V,CH2V,t0 = -1.0e-01, tInc = 2.0e-03,\n1,4\n2,5\n3,6\n",
+               "CH1V", "CH2V"},
+        Layout{"RigolWithSeconds",
+               "X,CH1,CH2\nSecond,Volt,Volt\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "CH1", "CH2"},
         Layout{"Keysight", "x-axis,1,2\nsecond,Volt,Volt\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "1",
                "2"},
-        Layout{"Siglent",
-               "Record Length,Analog:3\nSample Interval,Analog:2.0E-03\nVertical Units,CH1:V,CH2:V\n"
-               "Horizontal Units,s\nModel Number,SDS1204X-E\nSource,CH1,CH2\nSecond,Volt,Volt\n"
-               "-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n",
-               "CH1", "CH2"},
+        Layout{
+            "Siglent",
+            "Record Length,Analog:3\nSample Interval,Analog:2.0E-03\nVertical Units,CH1:V,CH2:V\n"
+            "Horizontal Units,s\nModel Number,SDS1204X-E\nSource,CH1,CH2\nSecond,Volt,Volt\n"
+            "-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n",
+            "CH1", "CH2"},
         Layout{"TektronixWithPreamble",
                "Model,MSO4034\nFirmware Version,2.48\n\nHorizontal Units,s\nSample Interval,2e-3\n"
                "Record Length,3\nVertical Units,V,V\nLabel,,\nTIME,CH1,CH2\n-0.1,1,4\n-0.098,2,5\n"
                "-0.096,3,6\n",
                "CH1", "CH2"},
         Layout{"PicoScope",
-               "Time,Channel A,Channel B\n(ms),(V),(V)\n\n-100,1,4\n-98,2,5\n-96,3,6\n", "Channel A",
-               "Channel B"},
+               "Time,Channel A,Channel B\n(ms),(V),(V)\n\n-100,1,4\n-98,2,5\n-96,3,6\n",
+               "Channel A", "Channel B"},
         Layout{"Rohde", "in s,CH1 in V,CH2 in V\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "CH1 in V",
                "CH2 in V"},
         Layout{"RateInThePreamble",
@@ -91,15 +93,17 @@ INSTANTIATE_TEST_SUITE_P(
 std::string tektronix(bool second) {
   const std::vector<std::string> settings = {"Record Length,30,Points", "Sample Interval,0.002,s",
                                              "Trigger Point,0,Samples", "Source,CH1,",
-                                             "Vertical Units,V,", "Horizontal Units,s,"};
+                                             "Vertical Units,V,",       "Horizontal Units,s,"};
   std::string text;
   for (std::size_t k = 0; k < 30; ++k) {
     const std::string beside = k < settings.size() ? settings[k] : ",,";
-    text += fmt::format("{},{:.6f},{:.5f},", beside, 0.002 * static_cast<double>(k), 0.1 * static_cast<double>(k));
+    text += fmt::format("{},{:.6f},{:.5f},", beside, 0.002 * static_cast<double>(k),
+                        0.1 * static_cast<double>(k));
     if (second) {
       std::string other = beside;
       if (other.starts_with("Source")) other = "Source,CH2,";
-      text += fmt::format(",{},{:.6f},{:.5f},", other, 0.002 * static_cast<double>(k), -0.1 * static_cast<double>(k));
+      text += fmt::format(",{},{:.6f},{:.5f},", other, 0.002 * static_cast<double>(k),
+                          -0.1 * static_cast<double>(k));
     }
     text += "\n";
   }
@@ -123,23 +127,23 @@ TEST(InstrumentHead, SettingsBesideSamplesAreNoSamples) {
 }
 
 TEST(InstrumentHead, ATimeThatIsMadeIsSaid) {
-  const auto table =
-      parse_foreign_table("Sample Interval,5,ms\nu,y\n1,2\n2,3\n3,4\n", "log");
+  const auto table = parse_foreign_table("Sample Interval,5,ms\nu,y\n1,2\n2,3\n3,4\n", "log");
   EXPECT_THAT(column(table, "time [s]").values, ElementsAre(0.0, 0.005, 0.01));
-  EXPECT_THAT(table.assumptions, Contains("times begin at 0 s and are 0.005 s apart, as line 1 tells"));
+  EXPECT_THAT(table.assumptions,
+              Contains("times begin at 0 s and are 0.005 s apart, as line 1 tells"));
 }
 
 /// Columns of a machine that are called so, with numbers in each row.
 TEST(InstrumentHead, ColumnsOfThatNameAreNoHead) {
-  const auto table =
-      parse_foreign_table("t,u,Start,Increment\n0,1,2,3\n1,2,3,4\n2,3,4,5\n", "log");
+  const auto table = parse_foreign_table("t,u,Start,Increment\n0,1,2,3\n1,2,3,4\n2,3,4,5\n", "log");
   EXPECT_THAT(column(table, "Increment").values, ElementsAre(3.0, 4.0, 5.0));
   EXPECT_EQ(table.columns.size(), 4U);
 }
 
 /// The first rows may have empty cells; no sample is lost.
 TEST(InstrumentHead, IncompleteRowsAtTheBeginningAreRows) {
-  for (const auto* text : {"t,u,y\n0,,\n1,2,3\n2,,\n3,4,5\n4,5,6\n", "t;u;y\n0;;NaN\n1;-;3\n2;2;3\n3;4;5\n4;5;6\n"}) {
+  for (const auto* text :
+       {"t,u,y\n0,,\n1,2,3\n2,,\n3,4,5\n4,5,6\n", "t;u;y\n0;;NaN\n1;-;3\n2;2;3\n3;4;5\n4;5;6\n"}) {
     const auto table = parse_foreign_table(text, "log");
     EXPECT_EQ(table.columns[0].name, "t");
     EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 1.0, 2.0, 3.0, 4.0)) << text;

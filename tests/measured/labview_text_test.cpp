@@ -42,10 +42,10 @@ std::vector<double> values(const ForeignTable& table, const std::string& name) {
 }
 
 TEST(LabviewText, WithoutXValuesTimesAreThoseOfTheHead) {
-  const auto table = parse_foreign_table(
-      file_head("No", "Decimal_Separator\t,\n") + segment_head("12:00:01,5", "0,250000") + kNames +
-          "\t0,5\t1,5\n\t1,5\t2,5\tnoted\n\t2,5\t3,5\n",
-      "a.lvm");
+  const auto table = parse_foreign_table(file_head("No", "Decimal_Separator\t,\n") +
+                                             segment_head("12:00:01,5", "0,250000") + kNames +
+                                             "\t0,5\t1,5\n\t1,5\t2,5\tnoted\n\t2,5\t3,5\n",
+                                         "a.lvm");
   EXPECT_THAT(values(table, "X_Value"), ElementsAre(0.0, 0.25, 0.5));
   EXPECT_THAT(values(table, "torque"), ElementsAre(0.5, 1.5, 2.5));
   EXPECT_THAT(values(table, "hub_angle"), ElementsAre(1.5, 2.5, 3.5));
@@ -54,10 +54,9 @@ TEST(LabviewText, WithoutXValuesTimesAreThoseOfTheHead) {
 }
 
 TEST(LabviewText, NumbersMayHaveAPointWhereTheClockHasAComma) {
-  const auto table =
-      parse_foreign_table(file_head("One") + segment_head("12:00:01,5") + kNames +
-                              "0.000000\t0.5\t1.5\n0.250000\t1.5\t2.5\n",
-                          "a.lvm");
+  const auto table = parse_foreign_table(file_head("One") + segment_head("12:00:01,5") + kNames +
+                                             "0.000000\t0.5\t1.5\n0.250000\t1.5\t2.5\n",
+                                         "a.lvm");
   EXPECT_THAT(values(table, "torque"), ElementsAre(0.5, 1.5));
 }
 
@@ -68,7 +67,8 @@ TEST(LabviewText, EachChannelMayHaveItsXValues) {
       "Delta_X\t0.25\t\t0.25\t\n***End_of_Header***\t\t\t\t\n";
   const std::string names = "X_Value\ttorque\tX_Value\thub_angle\tComment\n";
   const auto alike = parse_foreign_table(
-      file_head("Multi") + head + names + "0\t1\t0\t4\n0.25\t2\t0.25\t5\n0.5\t3\t0.5\t6\n", "a.lvm");
+      file_head("Multi") + head + names + "0\t1\t0\t4\n0.25\t2\t0.25\t5\n0.5\t3\t0.5\t6\n",
+      "a.lvm");
   ASSERT_EQ(alike.columns.size(), 3U);
   EXPECT_THAT(values(alike, "X_Value"), ElementsAre(0.0, 0.25, 0.5));
   EXPECT_THAT(values(alike, "hub_angle"), ElementsAre(4.0, 5.0, 6.0));
@@ -83,12 +83,12 @@ TEST(LabviewText, EachChannelMayHaveItsXValues) {
 
 TEST(LabviewText, SegmentsFollowByTheirClock) {
   const std::string rows = "\t0\t1\n\t0\t2\n\t0\t3\n\n";
-  const auto table = parse_foreign_table(
-      file_head("No") + segment_head("12:00:01.0") + kNames + rows + segment_head("12:00:01.76") +
-          kNames + rows + segment_head("12:00:09.0") + kNames + rows,
-      "a.lvm");
-  EXPECT_THAT(values(table, "X_Value"),
-              ElementsAre(0.0, 0.25, 0.5, DoubleEq(0.75), DoubleEq(1.0), DoubleEq(1.25), 8.0, 8.25, 8.5));
+  const auto table = parse_foreign_table(file_head("No") + segment_head("12:00:01.0") + kNames +
+                                             rows + segment_head("12:00:01.76") + kNames + rows +
+                                             segment_head("12:00:09.0") + kNames + rows,
+                                         "a.lvm");
+  EXPECT_THAT(values(table, "X_Value"), ElementsAre(0.0, 0.25, 0.5, DoubleEq(0.75), DoubleEq(1.0),
+                                                    DoubleEq(1.25), 8.0, 8.25, 8.5));
   EXPECT_THAT(table.assumptions, Contains("LabVIEW measurement file, 3 segments"));
   // Of one clock, they begin anew.
   const auto anew = parse_foreign_table(file_head("No") + segment_head("12:00:01.0") + kNames +
@@ -100,25 +100,26 @@ TEST(LabviewText, SegmentsFollowByTheirClock) {
 TEST(LabviewText, ASecondFileHeadAndSpecialBlocksAreHeads) {
   const std::string special = "***Start_Special***\nGain\t3\n1\t2\t3\n***End_Special***\n";
   const std::string rows = "0\t0\t1\n0.25\t0\t2\n";
-  const auto table = parse_foreign_table(
-      file_head("One", special) + segment_head("12:00:01") + kNames + rows + file_head("One") +
-          segment_head("12:00:02") + special + kNames + rows,
-      "a.lvm");
+  const auto table =
+      parse_foreign_table(file_head("One", special) + segment_head("12:00:01") + kNames + rows +
+                              file_head("One") + segment_head("12:00:02") + special + kNames + rows,
+                          "a.lvm");
   EXPECT_THAT(values(table, "hub_angle"), ElementsAre(1.0, 2.0, 1.0, 2.0));
   EXPECT_THAT(values(table, "X_Value"), ElementsAre(0.0, 0.25, 1.0, 1.25));
 }
 
 TEST(LabviewText, EmptyChannelsAndShortRowsAreEmptyCells) {
-  const auto table = parse_foreign_table(
-      file_head("One") + segment_head("12:00:01") + "X_Value\ttorque\thub_angle\tUntitled\tComment\n" +
-          "0.00\t1\t4\t\n0.25\t2\t\t\n0.50\t3\t6\t\tlast\n",
-      "a.lvm");
+  const auto table = parse_foreign_table(file_head("One") + segment_head("12:00:01") +
+                                             "X_Value\ttorque\thub_angle\tUntitled\tComment\n" +
+                                             "0.00\t1\t4\t\n0.25\t2\t\t\n0.50\t3\t6\t\tlast\n",
+                                         "a.lvm");
   EXPECT_THAT(values(table, "hub_angle"), ElementsAre(4.0, IsNan(), 6.0));
   EXPECT_TRUE(table.columns[find_column(table, "Untitled")].holds_nothing());
 }
 
 TEST(LabviewText, CommasMaySeparate) {
-  std::string text = file_head("One") + segment_head("12:00:01.5") + kNames + "0.0\t1.5\t4\n0.25\t2\t5\n";
+  std::string text =
+      file_head("One") + segment_head("12:00:01.5") + kNames + "0.0\t1.5\t4\n0.25\t2\t5\n";
   text.replace(text.find("Separator\tTab"), 13, "Separator\tComma");
   std::ranges::replace(text, '\t', ',');
   text.replace(text.find("12:00:00,5"), 10, "12:00:00.5");

@@ -59,25 +59,24 @@ TEST(ResponseColumns, UsualHeadersArePartsOfAResponse) {
     const char* name;
     const char* unit;
   };
-  for (const Header& header : {
-           Header{"Frequency (Hz),Magnitude (dB),Phase (deg)", true, true, "Magnitude (dB)", ""},
-           Header{"f_Hz,mag_dB,phase_deg", true, true, "mag_dB", ""},
-           Header{"Freq [Hz],Gain [dB],Phase [\xc2\xb0]", true, true, "Gain [dB]", ""},
-           Header{"freq,H1 mag [rad/(N m)],H1 phase [rad]", false, false, "H1", "rad"},
-           Header{"Frequenz [Hz],Betrag [deg/Nm],Phase [rad]", false, false, "Betrag [deg/Nm]", "deg"},
-           Header{"f,|H| [1],arg(H) [deg]", false, true, "|H| [1]", ""},
-           Header{"Hz,magH1,phaseH1 (rad)", false, false, "H1", ""},
-           Header{"Frequency,Amplitude ratio (dB),Phase angle (deg)", true, true, "ratio", ""},
-           Header{"Frequency,Magnitude,Phase\nHz,dB,deg", true, true, "Magnitude", ""},
-           Header{"frequency,hub_angle magnitude (dB re 1 rad/(N m)),hub_angle phase (deg)", true,
-                  true, "hub_angle", "rad"},
-           Header{"frequency,strain@0.05_mag (dB),strain@0.05_phase (deg)", true, true, "strain@0.05",
-                  ""}}) {
+  for (const Header& header :
+       {Header{"Frequency (Hz),Magnitude (dB),Phase (deg)", true, true, "Magnitude (dB)", ""},
+        Header{"f_Hz,mag_dB,phase_deg", true, true, "mag_dB", ""},
+        Header{"Freq [Hz],Gain [dB],Phase [\xc2\xb0]", true, true, "Gain [dB]", ""},
+        Header{"freq,H1 mag [rad/(N m)],H1 phase [rad]", false, false, "H1", "rad"},
+        Header{"Frequenz [Hz],Betrag [deg/Nm],Phase [rad]", false, false, "Betrag [deg/Nm]", "deg"},
+        Header{"f,|H| [1],arg(H) [deg]", false, true, "|H| [1]", ""},
+        Header{"Hz,magH1,phaseH1 (rad)", false, false, "H1", ""},
+        Header{"Frequency,Amplitude ratio (dB),Phase angle (deg)", true, true, "ratio", ""},
+        Header{"Frequency,Magnitude,Phase\nHz,dB,deg", true, true, "Magnitude", ""},
+        Header{"frequency,hub_angle magnitude (dB re 1 rad/(N m)),hub_angle phase (deg)", true,
+               true, "hub_angle", "rad"},
+        Header{"frequency,strain@0.05_mag (dB),strain@0.05_phase (deg)", true, true, "strain@0.05",
+               ""}}) {
     const auto table = parse_foreign_table(
-        table_text(header.text,
-                   [&](double f, Complex h) {
-                     return polar(f, h, ",", header.decibel, header.degrees);
-                   }),
+        table_text(
+            header.text,
+            [&](double f, Complex h) { return polar(f, h, ",", header.decibel, header.degrees); }),
         "bode.csv");
     const auto made = responses_in(table);
     ASSERT_EQ(made.responses.size(), 1U) << header.text << made.incomplete;
@@ -92,13 +91,13 @@ TEST(ResponseColumns, UsualHeadersArePartsOfAResponse) {
 TEST(ResponseColumns, RealAndImaginaryPartsWithCoherenceAndAngularFrequency) {
   for (const auto* header : {"w [rad/s];Re(H);Im(H);Coherence", "omega;Real;Imag;Coh",
                              "Kreisfrequenz;Realteil;Imagin\xc3\xa4rteil;Koh\xc3\xa4renz"}) {
-    const auto table = parse_foreign_table(table_text(header,
-                                                      [](double f, Complex h) {
-                                                        return fmt::format("{:.17g};{};{};0.99",
-                                                                           kWholeTurn_rad * f, h.real(),
-                                                                           h.imag());
-                                                      }),
-                                           "reim.csv");
+    const auto table =
+        parse_foreign_table(table_text(header,
+                                       [](double f, Complex h) {
+                                         return fmt::format("{:.17g};{};{};0.99",
+                                                            kWholeTurn_rad * f, h.real(), h.imag());
+                                       }),
+                            "reim.csv");
     const auto made = responses_in(table);
     ASSERT_EQ(made.responses.size(), 1U) << header;
     expect_response(made.responses[0]);
@@ -140,8 +139,9 @@ TEST(ResponseColumns, WhatIsNotToldIsAssumedAndSaid) {
 }
 
 TEST(ResponseColumns, SignalsInTimeAreNone) {
-  for (const auto* text : {"t,f,mag,phase\n0,1,1,1\n1,1,1,1\n", "time,torque,hub_angle\n0,1,2\n1,1,2\n",
-                           "torque,hub_angle,phase\n0,1,2\n1,1,2\n"}) {
+  for (const auto* text :
+       {"t,f,mag,phase\n0,1,1,1\n1,1,1,1\n", "time,torque,hub_angle\n0,1,2\n1,1,2\n",
+        "torque,hub_angle,phase\n0,1,2\n1,1,2\n"}) {
     EXPECT_TRUE(responses_in(parse_foreign_table(text, "a")).responses.empty()) << text;
   }
   EXPECT_EQ(responses_in(parse_foreign_table("f,mag\n1,2\n2,3\n", "a")).incomplete,
@@ -150,7 +150,8 @@ TEST(ResponseColumns, SignalsInTimeAreNone) {
 
 TEST(ResponseColumns, PartsMayBeStated) {
   const auto table = parse_foreign_table(
-      table_text("a,b,c", [](double f, Complex h) { return polar(f, h, ",", true, true); }), "a.csv");
+      table_text("a,b,c", [](double f, Complex h) { return polar(f, h, ",", true, true); }),
+      "a.csv");
   const auto made = responses_of(table, {{ResponsePart::frequency, "", 0, "Hz"},
                                          {ResponsePart::magnitude, "hub_angle [rad]", 1, "dB"},
                                          {ResponsePart::phase, "hub_angle [rad]", 2, "deg"}});

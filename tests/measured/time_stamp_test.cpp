@@ -57,15 +57,17 @@ TEST(TimeStamp, DecimalsAreNotLost) {
 }
 
 TEST(TimeStamp, OtherTextsAreNone) {
-  for (const auto* text : {"", "12", "12.5", "1,234", "12:30", "12:00:99", "99:99:99:9", "2024-13-45",
-                           "31.02.2024", "14 May", "v1.2", "12:00:00 XM", "OK", "1e-3", "a:b:c"}) {
+  for (const auto* text :
+       {"", "12", "12.5", "1,234", "12:30", "12:00:99", "99:99:99:9", "2024-13-45", "31.02.2024",
+        "14 May", "v1.2", "12:00:00 XM", "OK", "1e-3", "a:b:c"}) {
     EXPECT_FALSE(parse_time_stamp(text).has_value()) << text;
   }
 }
 
 TEST(TimeStamp, AColumnOfClockTimesHasSeconds) {
   const auto table = parse_foreign_table(
-      "Timestamp,torque [N m],hub_angle [rad]\n12:00:00.000,1,2\n12:00:00.002,,2\n\"12:00:00,004\",1,3\n",
+      "Timestamp,torque [N m],hub_angle "
+      "[rad]\n12:00:00.000,1,2\n12:00:00.002,,2\n\"12:00:00,004\",1,3\n",
       "log");
   EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 0.002, 0.004));
   EXPECT_EQ(table.columns[0].unit, "s");
@@ -74,9 +76,10 @@ TEST(TimeStamp, AColumnOfClockTimesHasSeconds) {
 }
 
 TEST(TimeStamp, ADateBesideAClockCompletesIt) {
-  for (const auto* text : {"Date,Time,u,y\n01/03/2024,23:59:59.9,1,2\n02/03/2024,00:00:00.1,1,2\n",
-                           "Date Time u y\n2024-03-01 23:59:59.9 1 2\n2024-03-02 00:00:00.1 1 2\n",
-                           "Date Time u y\n3/1/2024 11:59:59.9 PM 1 2\n3/2/2024 12:00:00.1 AM 1 2\n"}) {
+  for (const auto* text :
+       {"Date,Time,u,y\n01/03/2024,23:59:59.9,1,2\n02/03/2024,00:00:00.1,1,2\n",
+        "Date Time u y\n2024-03-01 23:59:59.9 1 2\n2024-03-02 00:00:00.1 1 2\n",
+        "Date Time u y\n3/1/2024 11:59:59.9 PM 1 2\n3/2/2024 12:00:00.1 AM 1 2\n"}) {
     const auto table = parse_foreign_table(text, "log");
     const auto time = std::ranges::find_if(table.columns, &ForeignColumn::is_stamp);
     ASSERT_NE(time, table.columns.end()) << text;

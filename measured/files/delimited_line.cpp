@@ -117,6 +117,12 @@ std::span<const string_view> LineSplitter::split_names(string_view line) {
 }
 
 std::optional<double> parse_cell(string_view cell, char decimal) {
+  constexpr string_view kMinusSign = "\xe2\x88\x92";  // of word processors and spreadsheets
+  if (cell.starts_with(kMinusSign)) {
+    std::string plain(1, '-');
+    plain += cell.substr(kMinusSign.size());
+    return parse_cell(plain, decimal);
+  }
   if (decimal == '.') return number_cell<double>(cell);
   std::array<char, 64> digits;
   if (cell.size() > digits.size() || cell.find('.') != string_view::npos) return std::nullopt;

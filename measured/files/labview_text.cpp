@@ -146,8 +146,12 @@ class SegmentReader {
     LabviewSegment& segment = segments_.back();
     const std::size_t channels = segment.channels.size();
     // Without X_Value the separator in front may be missing.
+    const auto is_cell_number = [&](string_view cell) {
+      return number_in(cell, separator_).has_value();
+    };
     const bool is_shifted =
-        segment.is_without_x && !cells_.front().empty() && cells_.size() <= channels;
+        segment.is_without_x && !cells_.front().empty() &&
+        static_cast<std::size_t>(std::ranges::count_if(cells_, is_cell_number)) <= channels;
     for (std::size_t i = 0; i < segment.cell_kinds.size(); ++i) {
       const std::size_t place = is_shifted ? i - 1 : i;
       const string_view cell = place < cells_.size() ? cells_[place] : string_view();

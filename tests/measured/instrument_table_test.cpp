@@ -150,6 +150,14 @@ TEST(InstrumentHead, IncompleteRowsAtTheBeginningAreRows) {
   }
 }
 
+TEST(InstrumentHead, AMinusSignOfASpreadsheetIsRead) {
+  const auto table = parse_foreign_table(
+      "t,u\n0,\xe2\x88\x92"
+      "1.5\n1,2\n",
+      "log");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(-1.5, 2.0));
+}
+
 TEST(InstrumentHead, ExponentsOfFortranAreNumbers) {
   const auto table = parse_foreign_table(
       "t u y\n 0.000D+00 1.8000D-03 -1.0d+00\n 1.000D+00 1.9000D-03 2.5D0\n", "log");

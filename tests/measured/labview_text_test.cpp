@@ -117,6 +117,15 @@ TEST(LabviewText, EmptyChannelsAndShortRowsAreEmptyCells) {
   EXPECT_TRUE(table.columns[find_column(table, "Untitled")].holds_nothing());
 }
 
+TEST(LabviewText, TheSeparatorInFrontMayBeMissing) {
+  const auto table = parse_foreign_table(file_head("No") + segment_head("12:00:01") + kNames +
+                                             "1\t4\tnoted\n2\t5\t15:49:24:.546\n3\t6\t\n",
+                                         "a.lvm");
+  EXPECT_THAT(values(table, "X_Value"), ElementsAre(0.0, 0.25, 0.5));
+  EXPECT_THAT(values(table, "torque"), ElementsAre(1.0, 2.0, 3.0));
+  EXPECT_THAT(values(table, "hub_angle"), ElementsAre(4.0, 5.0, 6.0));
+}
+
 TEST(LabviewText, CommasMaySeparate) {
   std::string text =
       file_head("One") + segment_head("12:00:01.5") + kNames + "0.0\t1.5\t4\n0.25\t2\t5\n";

@@ -1,6 +1,5 @@
 #include "app/column_choice.hpp"
 
-#include "app/command.hpp"
 #include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
@@ -10,11 +9,12 @@
 #include "measured/files/column_name.hpp"
 #include "measured/files/delimited_line.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -80,16 +80,29 @@ std::string name_of(const TypedColumn& typed, std::span<const ColumnLabel> colum
                                                                     : std::string(typed.name);
 }
 
+/// A scale is in the unit, so that a gear of 1/50 is 1/50 of rpm as of rad/s.
+double scale_in_unit(const std::string& quantity, const std::string& unit, double scale,
+                     std::vector<std::string>& notes) {
+  const double of_unit = measured::scale_of_unit(quantity, unit);
+  if (!measured::repeats_conversion(quantity, unit, scale)) return scale * of_unit;
+  notes.push_back(fmt::format("{}: SCALE {:.6g} is the conversion of {} itself; applied once",
+                              quantity, scale, unit));
+  return std::copysign(of_unit, scale);
+}
+
 ColumnMapping mapping_of(const std::string& quantity, const TypedColumn& typed,
-                         std::span<const ColumnLabel> columns) {
+                         std::span<const ColumnLabel> columns, std::vector<std::string>& notes) {
   ColumnMapping mapping;
   mapping.name = name_of(typed, columns);
   mapping.unit =
       typed.unit.empty() ? columns[typed.place].unit : measured::canonical_unit(typed.unit);
   if (mapping.unit.empty()) mapping.unit = std::string(measured::si_unit_of(quantity));
-  mapping.scale = typed.scale.empty() ? measured::scale_of_unit(quantity, mapping.unit)
-                                      : read_scale(typed.scale);
-  measured::require_valid(quantity, mapping, !typed.scale.empty());
+  mapping.is_scale_stated = !typed.scale.empty();
+  if (mapping.is_scale_stated) mapping.scale = read_scale(typed.scale);
+  measured::require_valid(quantity, mapping, mapping.is_scale_stated);
+  mapping.scale = mapping.is_scale_stated
+                      ? scale_in_unit(quantity, mapping.unit, mapping.scale, notes)
+                      : measured::scale_of_unit(quantity, mapping.unit);
   return mapping;
 }
 
@@ -134,6 +147,21 @@ bool is_of_reference(std::string_view text) {
   const std::string_view front = text.substr(0, std::min(text.find('='), text.size()));
   return front.size() < text.size() &&
          measured::trimmed(front.substr(0, front.find('['))) == measured::kReferenceColumn;
+}
+
+/// The sensor and the part in `frequency=...` and `hub_angle.phase=...`; empty for any other.
+std::optional<std::pair<std::string, measured::ResponsePart>> typed_part(std::string_view text) {
+  using measured::ResponsePart;
+  const std::string_view front = text.substr(0, std::min(text.find('='), text.size()));
+  if (front == to_string(ResponsePart::frequency)) return std::pair{"", ResponsePart::frequency};
+  const auto point = front.rfind('.');
+  if (point == std::string_view::npos) return std::nullopt;
+  for (const auto part : {ResponsePart::magnitude, ResponsePart::phase, ResponsePart::real,
+                          ResponsePart::imaginary, ResponsePart::coherence}) {
+    if (front.substr(point + 1) != to_string(part)) continue;
+    return std::pair{measured::standard_name(front.substr(0, point)), part};
+  }
+  return std::nullopt;
 }
 
 /// What is typed of the reference.
@@ -205,10 +233,11 @@ double read_scale(std::string_view text) {
   }
 }
 
-measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> columns) const {
+measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> columns,
+                                                std::vector<std::string>& notes) const {
   measured::ColumnMappings mappings;
   for (const auto& text : typed) {
-    if (is_of_reference(text)) continue;
+    if (is_of_reference(text) || typed_part(text)) continue;
     try {
       const auto equals = text.find('=');
       if (equals == std::string::npos) {
@@ -217,7 +246,7 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
       const std::string quantity =
           measured::standard_name(std::string_view(text).substr(0, equals));
       const auto column = read_column(std::string_view(text).substr(equals + 1), columns);
-      add_mapping(mappings, quantity, mapping_of(quantity, column, columns));
+      add_mapping(mappings, quantity, mapping_of(quantity, column, columns, notes));
     } catch (const InputError& error) {
       throw InputError(fmt::format("--column {}: {}", arm::shown(text), error.what()));
     }
@@ -239,6 +268,30 @@ measured::ColumnMappings ColumnChoice::mappings(std::span<const ColumnLabel> col
   return mappings;
 }
 
+std::vector<measured::PartColumn> ColumnChoice::response_parts(
+    std::span<const ColumnLabel> columns) const {
+  std::vector<measured::PartColumn> parts;
+  for (const auto& text : typed) {
+    try {
+      const auto part = typed_part(text);
+      if (!part) continue;
+      const auto column = read_column(std::string_view(text).substr(text.find('=') + 1), columns);
+      if (!column.scale.empty()) throw InputError("a part of a response has no SCALE");
+      // In the spelling of a header, by which its sensor is known.
+      std::string response = part->first;
+      if (!response.empty()) {
+        response += fmt::format(" [{}]", measured::si_unit_of(part->first));
+      }
+      const std::string& told = columns[column.place].unit;
+      parts.push_back({part->second, std::move(response), column.place,
+                       column.unit.empty() ? told : measured::canonical_unit(column.unit)});
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--column {}: {}", arm::shown(text), error.what()));
+    }
+  }
+  return parts;
+}
+
 std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLabel> columns) const {
   std::vector<std::size_t> places;
   for (const auto& name : left_out) {
@@ -250,6 +303,34 @@ std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLab
     places.push_back(*place);
   }
   return places;
+}
+
+measured::OwnRates ColumnChoice::own_rates() const {
+  constexpr std::array<std::pair<std::string_view, measured::Between>, 3> kWords = {
+      {{"hold", measured::Between::hold},
+       {"linear", measured::Between::linear},
+       {"rows", measured::Between::rows}}};
+  measured::OwnRates rates;
+  for (const std::string& text : own_rate) {
+    const std::string option = fmt::format("--own-rate {}", arm::shown(text));
+    const auto equals = std::min(text.find('='), text.size());
+    const auto word =
+        std::ranges::find(kWords, std::string_view(text).substr(std::min(equals + 1, text.size())),
+                          [](const auto& entry) { return entry.first; });
+    if (word == kWords.end()) {
+      throw InputError(option + ": must be QUANTITY=hold, QUANTITY=linear or QUANTITY=rows");
+    }
+    std::string quantity = text.substr(0, equals);
+    try {
+      if (quantity != measured::kReferenceColumn) quantity = measured::standard_name(quantity);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", option, error.what()));
+    }
+    if (!rates.emplace(quantity, word->second).second) {
+      throw InputError(fmt::format("{}: {} given twice", option, quantity));
+    }
+  }
+  return rates;
 }
 
 std::string ColumnChoice::reference_option() const {
@@ -270,7 +351,8 @@ std::optional<std::size_t> ColumnChoice::reference_place(
 
 ReferenceColumn ColumnChoice::reference_column(std::span<const ColumnLabel> columns,
                                                const measured::ColumnMappings& mappings,
-                                               const arm::Controller& controller) const {
+                                               const arm::Controller& controller,
+                                               std::vector<std::string>& notes) const {
   const auto typed_one = typed_reference(*this);
   try {
     if (typed_one->is_computed) {
@@ -291,7 +373,7 @@ ReferenceColumn ColumnChoice::reference_column(std::span<const ColumnLabel> colu
     }
     const std::string unit = column.unit.empty() ? told : measured::canonical_unit(column.unit);
     const arm::Sensor sensor = sensor_of_reference(controller, unit);
-    return {sensor, mapping_of(arm::to_string(sensor), column, columns)};
+    return {sensor, mapping_of(arm::to_string(sensor), column, columns, notes)};
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", typed_one->option, error.what()));
   }
@@ -308,44 +390,6 @@ void ColumnChoice::set_time_unit(measured::ColumnMappings& mappings) const {
   const auto names = measured::unit_names("time");
   throw InputError(fmt::format("--time-unit {}: must be {}{}", arm::shown(time_unit),
                                fmt::join(names, " or "), arm::did_you_mean(time_unit, names)));
-}
-
-void add_column_choice(CLI::App& parser, ColumnChoice& choice) {
-  parser
-      .add_option("--column", choice.typed,
-                  "QUANTITY=NAME:UNIT:SCALE: column NAME is time, torque or a sensor, in UNIT "
-                  "(default: that of the file) times SCALE, e.g. 8.925 or 0.202*pi/180, a "
-                  "conversion factor to SI. NAME can be #3, the third column. Repeat for more "
-                  "columns")
-      ->check(not_empty())
-      ->allow_extra_args(false);
-  parser
-      .add_option("--compute", choice.computed,
-                  "QUANTITY [UNIT]=EXPRESSION: a quantity computed from columns, e.g. "
-                  "\"hub_velocity [deg/s]=6*[Speed (rpm)]\"; UNIT of the result, default SI; "
-                  "names that are no plain words in brackets. Repeat for more")
-      ->check(not_empty())
-      ->allow_extra_args(false);
-  parser
-      .add_option("--torque", choice.torque,
-                  "Expression for the torque [N m], e.g. \"0.1574*(V - 0.518*omega)\"; as "
-                  "--compute torque=EXPRESSION")
-      ->check(not_empty());
-  parser
-      .add_option("--time-unit", choice.time_unit,
-                  "Unit of the time column instead of that of the file: s, ms, us, ...")
-      ->check(not_empty());
-  parser
-      .add_option("--reference", choice.reference,
-                  "NAME:UNIT:SCALE: column NAME is the reference of --controller; default of UNIT "
-                  "and SCALE: those of the sensor that the controller reads. A computed one: "
-                  "--compute reference=EXPRESSION")
-      ->check(not_empty());
-  parser
-      .add_option("--leave-out", choice.left_out,
-                  "Column that is not imported although its name tells a quantity. Repeat for more")
-      ->check(not_empty())
-      ->allow_extra_args(false);
 }
 
 }  // namespace flexarm::app

@@ -151,18 +151,23 @@ void begin_with_controller(TimeRecord& stretch, std::vector<std::string>& notes,
 }
 
 /// The records that one part of a file becomes.
-std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part,
-                                      const RunsChoice& choice, const std::string& file) {
+std::vector<ImportedRun> runs_of_part(const ImportedFile& file, const Part& part,
+                                      const RunsChoice& choice) {
+  const auto& record = std::get<TimeRecord>(file.data);
+  const double file_start_s = file.start_s.value_or(record.time_s.front());
   std::size_t first = 0;
-  const TimeRecord wanted = part.range ? measured::part_of(record, *part.range, first) : record;
+  const TimeRecord wanted =
+      part.range ? measured::part_of(record, *part.range, first, file.rows) : record;
   measured::EvenOptions options;
   options.clock = arm::read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
   options.torque_hold = hold_of(choice);
   options.longest_filled_gap = static_cast<std::size_t>(choice.longest_filled_gap);
   measured::EvenRecords even = measured::make_even(wanted, options);
+  bool has_start = first == 0 && even.has_first_sample && !file.is_driven_before;
   if (choice.decimation && even.stretches.size() > 1) {
     const std::size_t fewest =
         measured::fewest_samples(static_cast<std::size_t>(*choice.decimation));
+    if (even.stretches.front().time_s.size() < fewest) has_start = false;
     const auto left_out = std::erase_if(
         even.stretches, [&](const TimeRecord& stretch) { return stretch.time_s.size() < fewest; });
     if (left_out > 0) {
@@ -177,10 +182,10 @@ std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part
   }
   std::vector<ImportedRun> runs;
   for (auto& stretch : even.stretches) {
-    ImportedRun run{run_of(choice), {}, file, {}};
+    ImportedRun run{run_of(choice), {}, file.file, {}};
     run.run.id =
         even.stretches.size() == 1 ? part.id : fmt::format("{}-{}", part.id, runs.size() + 1);
-    bool is_start = first == 0 && stretch.time_s.front() == record.time_s.front();
+    bool is_start = has_start && runs.empty();
     if (runs.empty()) run.notes = even.notes;
     if (choice.decimation) {
       const auto factor = static_cast<std::size_t>(*choice.decimation);
@@ -197,7 +202,7 @@ std::vector<ImportedRun> runs_of_part(const TimeRecord& record, const Part& part
       run.notes.emplace_back("initial state free: the run does not begin where the file does");
     }
     if (choice.controller) {
-      begin_with_controller(stretch, run.notes, *choice.controller, record.time_s.front());
+      begin_with_controller(stretch, run.notes, *choice.controller, file_start_s);
       if (!is_start && has_memory(*choice.controller)) {
         run.notes.emplace_back(
             "the state of the controller at the first sample is not known and taken as 0");
@@ -246,10 +251,10 @@ std::vector<ImportedRun> runs_of(const ImportedFile& file, const RunsChoice& cho
                                  std::set<std::string>& used_ids) {
   std::vector<ImportedRun> runs;
   const auto parts = parts_of(choice, id_of_file(file.file));
-  if (const auto* record = std::get_if<TimeRecord>(&file.data)) {
+  if (std::holds_alternative<TimeRecord>(file.data)) {
     for (const auto& part : parts) {
       try {
-        auto more = runs_of_part(*record, part, choice, file.file);
+        auto more = runs_of_part(file, part, choice);
         std::ranges::move(more, std::back_inserter(runs));
       } catch (const InputError& error) {
         const std::string line =

@@ -1,8 +1,11 @@
 #include "app/imported_file.hpp"
 
+#include "app/imported_responses.hpp"
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
 #include "measured/checks/time_unit_check.hpp"
+#include "measured/files/column_lookup.hpp"
+#include "measured/files/complete_rows.hpp"
 #include "measured/files/raw_doubles.hpp"
 #include "measured/files/universal_grid.hpp"
 
@@ -14,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -33,34 +37,61 @@ bool has_columns(const ForeignTable& table, std::initializer_list<const char*> n
   });
 }
 
+/// The columns of a modal table and of a frequency record of this program, row by row.
+bool is_modal_form(const ForeignTable& table) {
+  return has_columns(table, {"sensor", "feature"});
+}
+bool is_record_form(const ForeignTable& table) {
+  return has_columns(table, {"sensor", "re"});
+}
+
 /// What the file holds; more than one only beside each other in a universal or MATLAB file.
 std::vector<RunKind> kinds_of(const ForeignFile& file) {
   if (file.format == measured::ForeignFormat::text) {
-    if (has_columns(file.table, {"sensor", "feature"})) return {RunKind::modal};
-    if (has_columns(file.table, {"sensor", "re"})) return {RunKind::frf};
-    return {RunKind::time};
+    if (is_modal_form(file.table)) return {RunKind::modal};
+    return {is_record_form(file.table) || !file.responses.empty() ? RunKind::frf : RunKind::time};
   }
   std::vector<RunKind> kinds;
   if (!file.responses.empty()) kinds.push_back(RunKind::frf);
-  // A vector of frequencies alone is no signal in time.
-  if (!file.table.columns.empty() && (kinds.empty() || file.table.columns.size() > 1)) {
-    kinds.push_back(RunKind::time);
-  }
+  // A vector of frequencies alone is no signal in time, nor are the columns of responses.
+  const auto columns = file.table.columns.size();
+  std::size_t of_responses = 1;
+  for (const auto& response : file.responses) of_responses += response.columns.size();
+  if (columns > 0 && (kinds.empty() || columns > of_responses)) kinds.push_back(RunKind::time);
+  if (!file.modes.empty()) kinds.push_back(RunKind::modal);
   return kinds;
+}
+
+const char* content_of(RunKind kind) {
+  if (kind == RunKind::time) return "time signals";
+  return kind == RunKind::frf ? "frequency responses" : "a modal table";
 }
 
 RunKind kind_of(const ForeignFile& file, std::optional<RunKind> given) {
   const auto kinds = kinds_of(file);
   if (!given && kinds.size() == 1) return kinds.front();
   if (!given) {
-    throw InputError(
-        "contains time signals and frequency responses; choose with --kind time or --kind frf");
+    std::vector<std::string> contents;
+    std::vector<std::string> options;
+    for (const auto kind : kinds) {
+      contents.emplace_back(content_of(kind));
+      options.push_back(fmt::format("--kind {}", to_string(kind)));
+    }
+    throw InputError(fmt::format("contains {}; choose with {}", fmt::join(contents, " and "),
+                                 fmt::join(options, " or ")));
   }
-  if (std::ranges::count(kinds, *given) > 0) return *given;
-  throw InputError(fmt::format("--kind {}: the file contains {}", to_string(*given),
-                               kinds.front() == RunKind::time  ? "time signals"
-                               : kinds.front() == RunKind::frf ? "frequency responses"
-                                                               : "a modal table"));
+  const bool is_table = file.format == measured::ForeignFormat::text && *given == RunKind::time;
+  if (is_table || std::ranges::count(kinds, *given) > 0) return *given;
+  if (*given == RunKind::frf && !file.table.columns.empty()) {
+    throw InputError(fmt::format(
+        "--kind frf: {}; state the parts with --column frequency=NAME:Hz, --column "
+        "hub_angle.magnitude=NAME:dB and --column hub_angle.phase=NAME:deg, or hub_angle.real and "
+        "hub_angle.imaginary",
+        file.incomplete_response.empty() ? "no columns of a frequency response are recognised"
+                                         : file.incomplete_response));
+  }
+  throw InputError(
+      fmt::format("--kind {}: the file contains {}", to_string(*given), content_of(kinds.front())));
 }
 
 /// A table with texts in it as CSV, each row on the line that it has in the file.
@@ -89,18 +120,6 @@ std::string csv_of(const ForeignTable& table) {
   return out;
 }
 
-std::vector<ColumnLabel> labels_of(const ForeignFile& file, RunKind kind) {
-  std::vector<ColumnLabel> labels;
-  if (kind == RunKind::time) {
-    for (const auto& column : file.table.columns) {
-      labels.push_back({column.name, column.unit, column.is_text()});
-    }
-  } else {
-    for (const auto& response : file.responses) labels.push_back({response.name, response.unit});
-  }
-  return labels;
-}
-
 std::string join_names(const std::vector<ColumnLabel>& labels) {
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
@@ -110,6 +129,7 @@ std::string join_names(const std::vector<ColumnLabel>& labels) {
 /// Times for a file without any.
 void add_times(ForeignTable& table, double period_s) {
   arm::require_in_range("--period", period_s, "s", arm::kPositive);
+  std::erase_if(table.columns, [](const auto& column) { return column.is_made; });
   const auto& first = table.columns.front();
   const std::size_t rows = first.is_text() ? first.texts.size() : first.values.size();
   table.columns.push_back({"time [s]", "s", measured::grid_points({0.0, period_s}, rows)});
@@ -124,7 +144,8 @@ std::string asked(const measured::ColumnGuess& guess, bool torque_alone) {
   return text;
 }
 
-void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels) {
+void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels,
+                  const std::string& incomplete_response) {
   const measured::ColumnMappings& mappings = guess.mappings;
   for (const auto& [quantity, otherwise] :
        {std::pair{"time", ", or the sampling period with --period"},
@@ -135,11 +156,12 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
           fmt::format("{0}: {1}? Choose one with --column {0}=NAME", quantity,
                       arm::shown(fmt::format("{}", fmt::join(several->second, " or ")), 400)));
     }
-    throw InputError(
-        fmt::format("{0}: column not recognised; columns: {1}; assign one with --column "
-                    "{0}=NAME:UNIT:SCALE{2}{3}",
-                    quantity, join_names(labels), otherwise,
-                    quantity == std::string_view("torque") ? asked(guess, true) : ""));
+    throw InputError(fmt::format(
+        "{0}: column not recognised; columns: {1}; assign one with --column "
+        "{0}=NAME:UNIT:SCALE{2}{3}{4}",
+        quantity, join_names(labels), otherwise,
+        quantity == std::string_view("torque") ? asked(guess, true) : "",
+        incomplete_response.empty() ? "" : "; no frequency response: " + incomplete_response));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -205,35 +227,48 @@ bool is_unused(const std::string& column, const ImportedFile& imported) {
   return std::ranges::count(imported.not_used, column) > 0;
 }
 
+/// Leaves out the rows with empty cells; they are missing samples.
+void leave_out_incomplete(ForeignTable& table, const FileChoice& choice, ImportedFile& imported) {
+  const auto time = imported.columns.find("time");
+  std::optional<double> start;
+  if (time != imported.columns.end() && time->second.expression.empty()) {
+    const auto& times = table.columns[measured::find_column(table, time->second.name)].values;
+    if (!times.empty() && !std::isnan(times.front())) start = times.front();
+  }
+  auto kept = measured::keep_complete_rows(
+      table, imported.columns, imported.reference ? &imported.reference->mapping : nullptr,
+      choice.columns.own_rates());
+  if (kept.rows.size() < kept.rows_in_file) {
+    if (start && kept.rows.front() > 0) {
+      const auto unit = measured::unit_of("time", time->second.unit).value_or(measured::Unit{});
+      imported.start_s = unit.to_si(*start * time->second.scale);
+    }
+    imported.rows = std::move(kept.rows);
+  }
+  imported.is_driven_before = kept.is_driven_before;
+  std::ranges::move(kept.notes, std::back_inserter(imported.assumptions));
+}
+
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
   const std::string name = arm::shown(imported.file);
-  const bool in_time = imported.kind == RunKind::time;
-  if (in_time && choice.period_s) add_times(file.table, *choice.period_s);
-  if (!in_time && (choice.columns.is_for_signals() || choice.controller)) {
-    throw InputError("--compute, --torque, --time-unit, --reference: only for time signals");
-  }
-  const auto labels = labels_of(file, imported.kind);
+  if (choice.period_s) add_times(file.table, *choice.period_s);
+  const auto labels = measured::labels_of(file.table);
   auto to_guess = labels;
   for (const auto place : choice.columns.left_out_places(labels)) to_guess[place].is_text = true;
   if (choice.controller) {
     // The reference is no other quantity.
     if (const auto place = choice.columns.reference_place(labels)) to_guess[*place].is_text = true;
   }
-  auto guess = measured::guess_columns(to_guess, choice.columns.mappings(labels));
+  auto guess =
+      measured::guess_columns(to_guess, choice.columns.mappings(labels, imported.assumptions));
   choice.columns.set_time_unit(guess.mappings);
-  if (in_time) {
-    require_told(guess, labels);
-  } else {
-    // Time and torque are no responses.
-    std::erase_if(guess.mappings,
-                  [](const auto& entry) { return !measured::sensor_of(entry.first).has_value(); });
-  }
+  require_told(guess, labels, file.incomplete_response);
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
   auto used = measured::places_used(guess.mappings, names);
   if (choice.controller) {
-    imported.reference =
-        choice.columns.reference_column(labels, guess.mappings, *choice.controller);
+    imported.reference = choice.columns.reference_column(labels, guess.mappings, *choice.controller,
+                                                         imported.assumptions);
     const auto more = measured::places_used({{"", imported.reference->mapping}}, names);
     used.insert(used.end(), more.begin(), more.end());
   }
@@ -243,22 +278,19 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
   for (const auto& question : guess.questions) {
     const bool is_needed_for_torque = question.may_be_torque && guess.mappings.contains("torque");
-    if (!in_time || is_needed_for_torque || !is_unused(question.column, imported)) continue;
+    if (is_needed_for_torque || !is_unused(question.column, imported)) continue;
     imported.warnings.push_back("not imported: " + question.sentence);
   }
   imported.columns = std::move(guess.mappings);
-  if (in_time) {
-    measured::TimeRecord record = uneven_record_of(file.table, imported.columns, name);
-    if (imported.reference) {
-      const auto& [sensor, mapping] = *imported.reference;
-      record.reference = reference_of(file.table, mapping, sensor, record.time_s, name);
-      warn_of_unrecorded(*choice.controller, imported);
-    }
-    imported.data = std::move(record);
-    doubt_time(choice, imported);
-  } else {
-    imported.data = frequency_record_of(file, imported.columns, name);
+  leave_out_incomplete(file.table, choice, imported);
+  measured::TimeRecord record = uneven_record_of(file.table, imported.columns, name);
+  if (imported.reference) {
+    const auto& [sensor, mapping] = *imported.reference;
+    record.reference = reference_of(file.table, mapping, sensor, record.time_s, name);
+    warn_of_unrecorded(*choice.controller, imported);
   }
+  imported.data = std::move(record);
+  doubt_time(choice, imported);
 }
 
 ForeignFile read_file(const std::string& path, const FileChoice& choice, std::string& format) {
@@ -280,11 +312,14 @@ ImportedFile import_file(const std::string& path, const FileChoice& choice) {
   ImportedFile imported;
   imported.file = path;
   ForeignFile file = read_file(path, choice, imported.format);
-  imported.assumptions = file.table.assumptions;
   try {
+    take_typed_responses(file, choice);
+    imported.assumptions = file.table.assumptions;
     imported.kind = kind_of(file, choice.kind);
     const bool is_long_form =
-        imported.kind != RunKind::time && file.format == measured::ForeignFormat::text;
+        imported.kind == RunKind::modal ||
+        (imported.kind == RunKind::frf && file.format == measured::ForeignFormat::text &&
+         is_record_form(file.table));
     if (is_long_form && !choice.columns.empty()) {
       throw InputError(
           "--column, --compute, --reference: not applicable, this file names its columns");
@@ -292,8 +327,12 @@ ImportedFile import_file(const std::string& path, const FileChoice& choice) {
     if (choice.period_s && imported.kind != RunKind::time) {
       throw InputError("--period: only for time signals");
     }
-    if (is_long_form) {
+    if (!file.modes.empty() && imported.kind == RunKind::modal) {
+      imported.data = file.modes;
+    } else if (is_long_form) {
       read_text_kind(file, imported);
+    } else if (imported.kind == RunKind::frf) {
+      read_responses(file, choice, imported);
     } else {
       read_mapped(file, choice, imported);
     }

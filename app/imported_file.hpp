@@ -27,6 +27,9 @@ struct ImportedFile {
   std::string format;  ///< "delimited text", ...
   measured::RunKind kind = measured::RunKind::time;
   measured::RunData data;                    ///< a time record may be uneven
+  std::vector<std::size_t> rows;             ///< of its samples in the file, from 0; empty: all
+  std::optional<double> start_s;             ///< of the file, where its first row is incomplete
+  bool is_driven_before = false;             ///< a torque acts in incomplete rows before the first
   measured::ColumnMappings columns;          ///< that were used
   std::optional<ReferenceColumn> reference;  ///< of a time record in closed loop
   std::vector<std::string> assumptions;      ///< a sentence each

@@ -34,7 +34,7 @@ const std::vector<Group>& groups() {
       {"import",
        "Columns",
        {"--column", "--compute", "--torque", "--time-unit", "--reference", "--controller",
-        "--leave-out", "--raw-columns"}},
+        "--own-rate", "--leave-out", "--raw-columns"}},
       {"import",
        "Runs",
        {"--id", "--rows", "--times", "--run", "--decimate", "--clock", "--fill-gaps", "--purpose",

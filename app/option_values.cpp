@@ -77,9 +77,9 @@ std::map<std::string_view, Words> words_by_name() {
 
 /// Text that is no file: expressions, names and lists of the user's own.
 constexpr std::string_view kOwnText[] = {
-    "--column",    "--compute", "--excitation", "--figure-size", "--font",         "--id",
-    "--leave-out", "--name",    "--noise-of",   "--over",        "--quantisation", "--rows",
-    "--run",       "--times",   "--validation", "PART"};
+    "--column",    "--compute", "--excitation", "--figure-size", "--font",     "--id",
+    "--leave-out", "--name",    "--noise-of",   "--over",        "--own-rate", "--quantisation",
+    "--rows",      "--run",     "--times",      "--validation",  "PART"};
 
 }  // namespace
 

@@ -33,6 +33,9 @@ using response::SteppedSine;
 constexpr std::string_view kIdCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
 
+/// Characters of an id that is made of a file's name: names of outputs begin with it.
+constexpr std::size_t kLongestFileId = 48;
+
 /// A day at a microsecond would be 86 times this.
 /// A run is kept in memory with its text, some 100 bytes a sample.
 constexpr double kMostSamples = 2e7;
@@ -258,11 +261,18 @@ measured::Purpose read_purpose(std::string_view value) {
 }
 
 std::string id_of_file(const std::string& file) {
-  std::string id = std::filesystem::path(file).stem().string();
-  for (auto& c : id) {
-    if (kIdCharacters.find(c) == std::string_view::npos) c = '-';
+  const std::string stem = std::filesystem::path(file).stem().string();
+  std::string id;
+  for (const char c : stem) {
+    if (kIdCharacters.find(c) != std::string_view::npos) {
+      id += c;
+    } else if (!id.empty() && id.back() != '-') {
+      id += '-';
+    }
   }
-  return id.empty() || id.front() == '.' ? "torque" + id : id;
+  id.resize(std::min(id.size(), kLongestFileId));
+  while (id.ends_with('-')) id.pop_back();
+  return id.empty() || id.front() == '.' ? "run" + id : id;
 }
 
 std::vector<PlannedRun> RunChoice::runs(const arm::Arm& arm,

@@ -76,7 +76,8 @@ std::string require_id(const std::string& id);
 /// "estimation" or "validation". Throws InputError for any other word.
 measured::Purpose read_purpose(std::string_view value);
 
-/// An id made of the name of a file.
+/// An id made of the name of a file: its letters, digits, - _ and ., at most 48; - in place of what
+/// else stands between them. "run" where nothing is left.
 std::string id_of_file(const std::string& file);
 
 }  // namespace flexarm::experiment

@@ -103,6 +103,15 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 
 }  // namespace
 
+std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
+  std::vector<ColumnLabel> labels;
+  for (const auto& column : table.columns) {
+    labels.push_back(
+        {column.name, column.unit, column.is_text() || column.holds_nothing(), column.is_stamp});
+  }
+  return labels;
+}
+
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given) {
   ColumnGuess guess;
   guess.mappings = given;
@@ -124,6 +133,10 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     auto& found = by_quantity[quantity];
     if (found.empty()) found = by_unit(columns, quantity);
     std::erase_if(found, [&](const ColumnCandidate& entry) { return is_given[entry.column]; });
+    const auto is_stamp = [&](const ColumnCandidate& entry) {
+      return columns[entry.column].is_stamp;
+    };
+    if (!std::ranges::all_of(found, is_stamp)) std::erase_if(found, is_stamp);
   }
   for (auto& [quantity, found] : by_quantity) {
     if (given.contains(quantity) || found.empty()) continue;

@@ -12,9 +12,13 @@ namespace flexarm::measured {
 /// A column by what its file tells of it.
 struct ColumnLabel {
   std::string name;
-  std::string unit;  ///< canonical; empty: not told
-  bool is_text = false;  ///< holds no numbers, and is no quantity
+  std::string unit;       ///< canonical; empty: not told
+  bool is_text = false;   ///< holds no numbers, and is no quantity
+  bool is_stamp = false;  ///< times of a clock, which are taken where no column has others
 };
+
+/// The labels of the columns of a table; one without a number is as one of text.
+std::vector<ColumnLabel> labels_of(const ForeignTable& table);
 
 /// A column whose name tells what was measured, but not as which quantity it is to be read.
 struct ColumnQuestion {

@@ -59,7 +59,8 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
     sources[place] = Source{quantity, mapping};
   }
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto standard = sources[i] ? ColumnMappings() : standard_mapping(table.columns[i].name);
+    const bool is_free = !sources[i] && !table.columns[i].holds_nothing();
+    const auto standard = is_free ? standard_mapping(table.columns[i].name) : ColumnMappings();
     if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
     std::optional<Source> source = Source{standard.begin()->first, standard.begin()->second};
     const bool is_taken = std::ranges::any_of(
@@ -85,8 +86,9 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
     values.push_back(unit.to_si(numbers[row] * mapping.scale));
     if (std::isfinite(values.back())) continue;
     throw InputError(fmt::format(
-        "{}: {} = {}{}: must be a finite number", source.name, what, numbers[row],
-        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)"));
+        "{}: {} = {}{}: must be a finite number{}", source.name, what, numbers[row],
+        table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)",
+        std::isnan(numbers[row]) ? "; flexarm import takes such rows as missing samples" : ""));
   }
   row = 0;
   return values;
@@ -160,9 +162,19 @@ double scale_of_unit(std::string_view standard_name, std::string_view unit) {
   return other_unit_scale(si_unit_of(standard_name), canonical_unit(unit)).value_or(1.0);
 }
 
+std::optional<double> conversion_of(std::string_view standard_name, std::string_view unit) {
+  if (const auto known = unit_of(standard_name, unit)) return known->to_si(1.0);
+  return other_unit_scale(si_unit_of(standard_name), canonical_unit(unit));
+}
+
+bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale) {
+  constexpr double kAlike = 0.01;
+  const double own = conversion_of(standard_name, unit).value_or(1.0);
+  return own != 1.0 && std::abs(std::abs(scale) / own - 1.0) < kAlike;
+}
+
 bool is_unit_of(std::string_view standard_name, std::string_view unit) {
-  return unit_of(standard_name, unit).has_value() ||
-         other_unit_scale(si_unit_of(standard_name), canonical_unit(unit)).has_value();
+  return conversion_of(standard_name, unit).has_value();
 }
 
 std::vector<std::string> unit_names(std::string_view standard_name) {

@@ -16,14 +16,15 @@
 namespace flexarm::measured {
 
 /// Which column of a foreign log is a quantity, and how its numbers become SI units:
-/// value [SI] = number in the column * scale * factor of `unit`. In place of a column, an expression
-/// of several (measured/files/column_expression.hpp).
+/// value [SI] = number in the column * scale * factor of `unit`. In place of a column, an
+/// expression of several (measured/files/column_expression.hpp).
 struct ColumnMapping {
   std::string name;    ///< of the column, as `column_place` takes it; empty with an expression
   std::string unit;    ///< one of `units_for` the quantity, or any other, which has no factor: then
                        ///< the scale carries into SI; empty: the SI unit
   double scale = 1.0;  ///< finite and not 0
-  std::string expression = {};  ///< in place of the name
+  std::string expression = {};   ///< in place of the name
+  bool is_scale_stated = false;  ///< on the command line, of which a response to no torque asks
 
   bool operator==(const ColumnMapping&) const = default;
 };
@@ -47,6 +48,13 @@ std::optional<Unit> unit_of(std::string_view standard_name, std::string_view uni
 /// The scale into SI that a unit stands for where none is given: that of `other_unit_scale`; 1 for
 /// any other.
 double scale_of_unit(std::string_view standard_name, std::string_view unit);
+
+/// SI units in one of the unit; empty for a foreign one.
+std::optional<double> conversion_of(std::string_view standard_name, std::string_view unit);
+
+/// Whether a scale beside a unit is that unit's own conversion, to within 1 % and but for its sign,
+/// so that it would be applied twice: pi/180 beside deg.
+bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale);
 
 /// Whether numbers in the unit are known in SI without a scale; so is an empty one, which is SI.
 bool is_unit_of(std::string_view standard_name, std::string_view unit);

@@ -15,11 +15,22 @@ using std::string_view;
 
 constexpr std::array<std::pair<char, char>, 3> kBrackets = {{{'[', ']'}, {'(', ')'}, {'{', '}'}}};
 
+/// The place of the bracket that the last one closes; npos without one.
+std::size_t opening_bracket(string_view text, char open, char close) {
+  int depth = 0;
+  for (std::size_t at = text.size(); at > 0; --at) {
+    if (text[at - 1] == close) ++depth;
+    if (text[at - 1] == open && --depth == 0) return at - 1;
+  }
+  return string_view::npos;
+}
+
 /// What stands in the pair of brackets that `text` ends with, and what stands in front of it.
 bool split_at_brackets(string_view text, string_view& front, string_view& inside) {
   for (const auto& [open, close] : kBrackets) {
-    const auto begin = text.rfind(open);
-    if (!text.ends_with(close) || begin == string_view::npos) continue;
+    if (!text.ends_with(close)) continue;
+    const auto begin = opening_bracket(text, open, close);
+    if (begin == string_view::npos) continue;
     front = trimmed(text.substr(0, begin));
     inside = trimmed(text.substr(begin + 1, text.size() - begin - 2));
     return true;

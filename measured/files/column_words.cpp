@@ -12,10 +12,12 @@ using std::string_view;
 using Word = string_view;
 
 constexpr Word kTimeWords[] = {"t", "time", "times", "timestamp", "elapsed", "elapsedtime",
+                               "datetime", "dateandtime", "xvalue",
                                // German
-                               "zeit", "messzeit", "zeitstempel", "versuchszeit", "laufzeit",
+                               "zeit", "uhrzeit", "datumuhrzeit", "datumzeit", "messzeit",
+                               "zeitstempel", "versuchszeit", "laufzeit",
                                // French
-                               "temps", "tempsecoule"};
+                               "temps", "tempsecoule", "heure", "horodatage"};
 constexpr Word kTorqueWords[] = {
     "torque", "tau", "hubtorque", "motortorque", "appliedtorque", "inputtorque", "commandedtorque",
     "torquecommand", "torquecmd",

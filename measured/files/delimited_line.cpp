@@ -1,6 +1,7 @@
 #include "measured/files/delimited_line.hpp"
 
 #include "measured/files/number_cell.hpp"
+#include "measured/files/time_stamp.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,23 @@ std::size_t LineSplitter::quoted_end(string_view line, std::size_t at) {
   return std::min(at + 1, line.size());
 }
 
+/// Between blanks a date, its clock and AM or PM are one cell.
+void LineSplitter::join_time_stamp() {
+  if (cells_.size() < 2) return;
+  const string_view last = cells_.back();
+  string_view& before = cells_[cells_.size() - 2];
+  const bool is_half = last == "AM" || last == "PM" || last == "am" || last == "pm";
+  const bool is_clock = last.find(':') != string_view::npos && last.front() >= '0' &&
+                        last.front() <= '9' && before.find(':') == string_view::npos;
+  if (before.empty() || before.data() + before.size() > last.data()) return;
+  const string_view both(before.data(),
+                         static_cast<std::size_t>(last.data() + last.size() - before.data()));
+  if ((!is_half && !is_clock) || both.find('"') != string_view::npos) return;
+  if (!parse_time_stamp(both)) return;
+  before = both;
+  cells_.pop_back();
+}
+
 std::span<const string_view> LineSplitter::split(string_view line) {
   cells_.clear();
   rewritten_.clear();
@@ -70,6 +88,7 @@ std::span<const string_view> LineSplitter::split(string_view line) {
       const std::size_t begin = at;
       while (at < line.size() && !ends_cell(line[at])) ++at;
       cells_.push_back(trimmed(line.substr(begin, at - begin)));
+      if (by_blanks) join_time_stamp();
     }
     if (at == line.size()) break;
     ++at;
@@ -98,11 +117,24 @@ std::span<const string_view> LineSplitter::split_names(string_view line) {
 }
 
 std::optional<double> parse_cell(string_view cell, char decimal) {
+  constexpr string_view kMinusSign = "\xe2\x88\x92";  // of word processors and spreadsheets
+  if (cell.starts_with(kMinusSign)) {
+    std::string plain(1, '-');
+    plain += cell.substr(kMinusSign.size());
+    return parse_cell(plain, decimal);
+  }
   if (decimal == '.') return number_cell<double>(cell);
   std::array<char, 64> digits;
   if (cell.size() > digits.size() || cell.find('.') != string_view::npos) return std::nullopt;
   std::ranges::replace_copy(cell, digits.begin(), ',', '.');
   return number_cell<double>({digits.data(), cell.size()});
+}
+
+bool is_missing_number(string_view cell) {
+  constexpr std::array<string_view, 17> kSigns = {
+      "-",   "--",   "---",  "?",    "NA",      "N/A",     "n/a",    "na",       "#N/A",
+      "#NV", "null", "NULL", "Null", "1.#QNAN", "-1.#IND", "1.#IND", "-nan(ind)"};
+  return cell.empty() || std::ranges::count(kSigns, cell) > 0;
 }
 
 bool has_thousands_separators(string_view cell, char decimal) {

@@ -26,7 +26,7 @@ class LineSplitter {
   explicit LineSplitter(char separator) : separator_(separator) {}
 
   /// The cells without quotes and without blanks around. A quote that is not closed ends with the
-  /// line.
+  /// line. Between blanks a date and its clock are one cell.
   std::span<const std::string_view> split(std::string_view line);
 
   /// The same for a line of names: between blanks, what stands in brackets belongs to the name in
@@ -35,6 +35,7 @@ class LineSplitter {
 
  private:
   std::size_t quoted_end(std::string_view line, std::size_t at);
+  void join_time_stamp();
 
   char separator_;
   std::vector<std::string_view> cells_;
@@ -50,6 +51,10 @@ std::string_view trimmed(std::string_view text);
 
 /// A cell as a number with the dialect's decimal mark, `nan` and `inf` included.
 std::optional<double> parse_cell(std::string_view cell, char decimal);
+
+/// Whether the cell is empty or has what programs write in place of a number that there is not: NA,
+/// null, -, ...
+bool is_missing_number(std::string_view cell);
 
 /// Whether the cell is a number only with its thousands separators taken out: "1,234.5", "1'234",
 /// "1 234,5".

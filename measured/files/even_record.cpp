@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <utility>
@@ -29,6 +30,8 @@ constexpr double kMostRounding = 1.1;
 constexpr double kCoarsestDigit_periods = 0.75;
 /// unless so many times repeat.
 constexpr double kFewestRepeats = 0.1;
+/// Times of a grid that lie closer, in periods, differ by rounding.
+constexpr double kSameTime_periods = 1e-6;
 /// Samples that lie closer make a curve through them out of their noise.
 constexpr double kClosest_periods = 0.3;
 
@@ -70,6 +73,13 @@ std::vector<double> grid_from(double first_s, double period_s, std::size_t sampl
   return times_s;
 }
 
+/// A period that is a decimal of few digits but for rounding, as that decimal.
+double without_rounding(double period_s) {
+  constexpr double kRounding = 1e-12;
+  const double decimal_s = std::strtod(fmt::format("{:.9e}", period_s).c_str(), nullptr);
+  return std::abs(decimal_s - period_s) <= kRounding * period_s ? decimal_s : period_s;
+}
+
 /// The times a + period n_k with the places n_k of the samples on the grid, by least squares.
 std::vector<double> fitted_times(std::span<const double> times_s, const ClockSteps& steps,
                                  double period_s) {
@@ -78,6 +88,8 @@ std::vector<double> fitted_times(std::span<const double> times_s, const ClockSte
   double first_s = 0.0;
   const auto count = static_cast<double>(times_s.size());
   for (std::size_t k = 0; k < at.size(); ++k) first_s += (times_s[k] - period_s * at[k]) / count;
+  // A first time that is off by rounding alone stays what the file says.
+  if (std::abs(first_s - times_s[0]) <= kSameTime_periods * period_s) first_s = times_s[0];
   std::vector<double> fitted(at.size());
   for (std::size_t k = 0; k < at.size(); ++k) fitted[k] = first_s + period_s * at[k];
   return fitted;
@@ -234,6 +246,7 @@ class EvenMaker {
 
   bool is_too_short(const TimeRecord& part) {
     if (part.time_s.size() >= options_.fewest_samples) return false;
+    if (out_.stretches.empty()) out_.has_first_sample = false;
     note(fmt::format("{} sample{} at {} s left out: a stretch has {} or more", part.time_s.size(),
                      part.time_s.size() == 1 ? "" : "s", part.time_s.front(),
                      options_.fewest_samples));
@@ -315,10 +328,10 @@ class EvenMaker {
       return;
     }
     if (is_jittery) note(measured + "; samples taken as even, their times replaced");
-    stretch.time_s = fitted_times(stretch.time_s, steps, jitter.period_s);
-    out_.stretches.push_back(missing > 0.0
-                                 ? resampled(stretch, jitter.period_s, options_.torque_hold)
-                                 : std::move(stretch));
+    const double period_s = without_rounding(jitter.period_s);
+    stretch.time_s = fitted_times(stretch.time_s, steps, period_s);
+    out_.stretches.push_back(missing > 0.0 ? resampled(stretch, period_s, options_.torque_hold)
+                                           : std::move(stretch));
   }
 
   const EvenOptions& options_;
@@ -332,7 +345,7 @@ std::string_view to_string(Clock clock) {
 }
 
 EvenRecords make_even(const TimeRecord& record, const EvenOptions& options) {
-  if (!grid_fault(record.time_s)) return {{record}, {}};
+  if (!grid_fault(record.time_s)) return {{record}, {}, true};
   return EvenMaker(options).make(record);
 }
 

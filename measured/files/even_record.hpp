@@ -32,6 +32,7 @@ struct EvenOptions {
 struct EvenRecords {
   std::vector<TimeRecord> stretches;
   std::vector<std::string> notes;  ///< a sentence on each thing that was done to the times
+  bool has_first_sample = true;    ///< of the record, in the first stretch
 };
 
 /// Puts a record whose times need not be even on even grids. A record that `grid_fault` finds no

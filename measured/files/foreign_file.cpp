@@ -4,6 +4,8 @@
 #include "measured/files/column_name.hpp"
 #include "measured/files/foreign_mat.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/response_columns.hpp"
+#include "measured/files/response_unit.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/universal_file.hpp"
 
@@ -14,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <iterator>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -101,12 +104,14 @@ void add_responses(const std::vector<const UniversalFunction*>& functions, Forei
   const auto names = names_of(functions);
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const UniversalFunction& function = *functions[i];
-    ForeignResponse response{names[i],
-                             unit_of_axis(function.ordinate_axis, names[i]),
-                             canonical_unit(told(function.denominator_axis.units)),
-                             function.abscissa,
-                             {},
-                             std::vector<double>(function.abscissa.size(), kUnknown)};
+    const ResponseUnit unit = split_response_unit(unit_of_axis(function.ordinate_axis, names[i]));
+    ForeignResponse response{
+        names[i],
+        unit.unit,
+        unit.per.empty() ? canonical_unit(told(function.denominator_axis.units)) : unit.per,
+        function.abscissa,
+        {},
+        std::vector<double>(function.abscissa.size(), kUnknown)};
     const double factor = hertz_of(function.abscissa_axis);
     for (auto& frequency : response.frequency_Hz) frequency *= factor;
     for (std::size_t k = 0; k < function.real.size(); ++k) {
@@ -160,10 +165,25 @@ ForeignFile universal_contents(std::string_view bytes, const std::string& file_n
   add_signals(signals, file);
   add_responses(responses, file);
   add_coherences(universal, file);
+  for (const auto& mode : universal.modes) {
+    const bool is_told = mode.pole && std::ranges::count(file.modes, *mode.pole) > 0;
+    if (mode.pole && !is_told) file.modes.push_back(*mode.pole);
+    file.left_out.push_back(mode.left_out);
+  }
   for (const auto& number : universal.passed_over) {
     file.left_out.push_back("data set " + number);
   }
   return file;
+}
+
+/// Responses that stand in columns of the table; a frequency record names a sensor in each row.
+void add_column_responses(ForeignFile& file) {
+  const auto& columns = file.table.columns;
+  if (std::ranges::count(columns, "sensor", &ForeignColumn::name) > 0) return;
+  ResponseColumns made = responses_in(file.table);
+  std::ranges::move(made.responses, std::back_inserter(file.responses));
+  std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
+  file.incomplete_response = std::move(made.incomplete);
 }
 
 /// "-1" alone is the first line of a universal file.
@@ -179,14 +199,15 @@ bool is_universal(std::string_view bytes) {
 double scale_of(const ForeignResponse& response, const std::string& sensor,
                 const ColumnMapping& mapping, double& divisor) {
   const Unit unit = unit_of(sensor, mapping.unit).value_or(Unit{mapping.unit});
-  const auto per = unit_of("torque", response.per);
-  if (!per && mapping.scale == 1.0) {
-    throw InputError(fmt::format("{}: reference in {} is not a torque; give a scale to {} per N m",
-                                 arm::shown(response.name), arm::shown(response.per),
-                                 si_unit_of(sensor)));
+  const bool is_to_torque = is_unit_of("torque", response.per);
+  if (!is_to_torque && !mapping.is_scale_stated) {
+    throw InputError(fmt::format(
+        "{0}: a response to {1}, not to a torque; state its scale in {1} per N m, as in --column "
+        "'{2}={0}:{3}:SCALE'",
+        arm::shown(response.name), arm::shown(response.per), sensor, arm::shown(mapping.unit)));
   }
-  const Unit torque = per.value_or(Unit{response.per});
-  divisor = unit.divisor * torque.factor;
+  const Unit torque = unit_of("torque", response.per).value_or(Unit{response.per});
+  divisor = unit.divisor * torque.factor * scale_of_unit("torque", response.per);
   return mapping.scale * unit.factor * torque.divisor;
 }
 
@@ -214,8 +235,13 @@ ForeignFile read_foreign_file(const std::filesystem::path& path) {
   } else {
     file.table = parse_foreign_table(bytes, name);
   }
-  if (file.table.columns.empty() && file.responses.empty()) {
-    throw InputError(fmt::format("{}: {} without time signals or frequency responses", name,
+  try {
+    add_column_responses(file);
+  } catch (const InputError& error) {
+    throw arm::located(error, name, 0);
+  }
+  if (file.table.columns.empty() && file.responses.empty() && file.modes.empty()) {
+    throw InputError(fmt::format("{}: {} without time signals, frequency responses or modes", name,
                                  to_string(file.format)));
   }
   return file;
@@ -257,8 +283,10 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
       }
     }
     if (record.channels.empty()) {
-      throw InputError(fmt::format("no response is mapped to a sensor; responses: {}",
-                                   arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+      throw InputError(
+          fmt::format("no response is mapped to a sensor; responses: {}; assign one with --column "
+                      "hub_angle=NAME:UNIT:SCALE",
+                      arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
     }
     format_frequency_record(record);  // throws for what is out of range
   } catch (const InputError& error) {

@@ -1,13 +1,22 @@
 #include "measured/files/foreign_table.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_builder.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/instrument_head.hpp"
+#include "measured/files/labview_text.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/sampling_settings.hpp"
 #include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
+#include "measured/files/text_lines.hpp"
+#include "measured/files/time_stamp.hpp"
+#include "measured/files/unit.hpp"
 #include "measured/files/unit_spelling.hpp"
+#include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -42,56 +51,16 @@ constexpr std::array<Dialect, 8> kDialects = {{{'\t', '.'},
                                                {' ', '.'},
                                                {' ', ','}}};
 
-struct Line {
-  int number = 0;
-  string_view text;
-};
-
-/// Passes over the lines of a text one by one.
-class LineReader {
- public:
-  explicit LineReader(string_view text) : text_(text) {}
-
-  bool next(Line& line) {
-    if (at_ >= text_.size()) return false;
-    const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
-    line = {++number_, text_.substr(at_, end - at_)};
-    at_ = end + 1;
-    if (end + 1 < text_.size() && text_[end] == '\r' && text_[end + 1] == '\n') ++at_;
-    return true;
-  }
-
- private:
-  string_view text_;
-  std::size_t at_ = 0;
-  int number_ = 0;
-};
-
-bool is_blank_line(string_view line) {
-  return line.find_first_not_of(" \t\f\v") == string_view::npos;
-}
-
-/// The line without its comment mark; the line itself when it has none.
-string_view without_comment_mark(string_view line) {
-  const auto first = line.find_first_not_of(" \t");
-  if (first == string_view::npos) return line;
-  string_view rest = line.substr(first);
-  if (rest.starts_with("//")) return rest.substr(2);
-  while (rest.starts_with('#') || rest.starts_with('%')) rest.remove_prefix(1);
-  return rest.size() == line.size() - first ? line : rest;
-}
-
-bool is_comment(string_view line) {
-  return without_comment_mark(line).size() != line.size();
-}
-
 bool is_passed_over(string_view line) {
   return is_blank_line(line) || is_comment(line);
 }
 
+/// Numbers and time stamps among the cells.
 std::size_t count_numbers(std::span<const string_view> cells, char decimal) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      cells, [&](string_view cell) { return parse_cell(cell, decimal).has_value(); }));
+  return static_cast<std::size_t>(std::ranges::count_if(cells, [&](string_view cell) {
+    return parse_cell(cell, decimal).has_value() ||
+           (cell.find(':') != string_view::npos && parse_time_stamp(cell));
+  }));
 }
 
 /// A row has two numbers or more: time and something measured.
@@ -109,7 +78,7 @@ struct Reading {
   std::pair<std::size_t, std::size_t> score() const { return {whole, numbers}; }
 };
 
-Reading read_sample(const std::vector<Line>& sample, const Dialect& dialect) {
+Reading read_sample(const std::vector<TextLine>& sample, const Dialect& dialect) {
   std::map<std::size_t, Reading> by_cells;
   LineSplitter splitter(dialect.separator);
   for (const auto& line : sample) {
@@ -130,7 +99,7 @@ Reading read_sample(const std::vector<Line>& sample, const Dialect& dialect) {
   return best;
 }
 
-Reading best_reading(const std::vector<Line>& sample) {
+Reading best_reading(const std::vector<TextLine>& sample) {
   Reading best;
   for (const auto& dialect : kDialects) {
     const Reading reading = read_sample(sample, dialect);
@@ -144,7 +113,7 @@ class TableReader {
  public:
   explicit TableReader(string_view text) : text_(text) {
     LineReader lines(text);
-    Line line;
+    TextLine line;
     while (sample_.size() < kSample && lines.next(line)) sample_.push_back(line);
     reading_ = best_reading(sample_);
     splitter_ = LineSplitter(reading_.dialect.separator);
@@ -155,11 +124,12 @@ class TableReader {
 
   ForeignTable read() {
     if (text_.empty()) throw InputError("empty");
+    counted_ = counted_header(sample_, splitter_, decimal());
     find_first_row();
     require_columns();
     read_names();
     read_rows();
-    drop_empty_last_columns();
+    add_times();
     return std::move(table_);
   }
 
@@ -172,16 +142,31 @@ class TableReader {
     return cells.size() == reading_.cells && count_numbers(cells, decimal()) >= kFewestNumbers;
   }
 
+  /// A row with some empty cells.
+  bool is_incomplete_row(string_view line) {
+    if (is_comment(line) || reading_.dialect.separator == ' ') return false;
+    const auto cells = splitter_.split(line);
+    const std::size_t numbers = count_numbers(cells, decimal());
+    const auto missing = std::ranges::count_if(cells, [&](string_view cell) {
+      return is_missing_number(cell) && !parse_cell(cell, decimal());
+    });
+    return cells.size() == reading_.cells && numbers > 0 &&
+           numbers + static_cast<std::size_t>(missing) == cells.size();
+  }
+
   /// A row and one that is at least meant to be begin the data; a line of numbers in front of a
   /// line of names does not.
   void find_first_row() {
-    for (std::size_t i = 0; i + 1 < sample_.size() && reading_.cells > 0; ++i) {
+    const std::size_t from = counted_ ? counted_->behind : 0;
+    for (std::size_t i = from; i + 1 < sample_.size() && reading_.cells > 0; ++i) {
       if (!is_row(sample_[i].text)) continue;
       std::size_t next = i + 1;
       while (next + 1 < sample_.size() && is_passed_over(sample_[next].text)) ++next;
       const auto cells = splitter_.split(sample_[next].text);
-      if (count_numbers(cells, decimal()) < kFewestNumbers) continue;
+      const bool has_numbers = count_numbers(cells, decimal()) >= kFewestNumbers;
+      if (!has_numbers && !is_incomplete_row(sample_[next].text)) continue;
       first_ = i;
+      while (first_ > from && is_incomplete_row(sample_[first_ - 1].text)) --first_;
       return;
     }
     line_ = 1;
@@ -201,6 +186,7 @@ class TableReader {
     const auto cells = splitter_.split_names(without_comment_mark(line));
     std::vector<std::string> names(cells.begin(), cells.end());
     while (!names.empty() && names.back().empty()) names.pop_back();
+    join_date_and_time(names);
     // Columns at the end may have no names, and separators at the ends of rows make one more.
     const bool are_enough = names.size() + 1 >= reading_.cells ||
                             (reading_.dialect.separator != ' ' && names.size() >= kFewestNames &&
@@ -231,7 +217,50 @@ class TableReader {
     return std::nullopt;
   }
 
+  /// Between blanks the rows have a date and its clock in one cell.
+  void join_date_and_time(std::vector<std::string>& names) {
+    if (reading_.dialect.separator != ' ' || names.size() != reading_.cells + 1) return;
+    const auto row = splitter_.split(sample_[first_].text);
+    const auto stamp = row.empty() ? std::nullopt : parse_time_stamp(row.front());
+    if (!stamp || !stamp->has_date() || !stamp->clock_ns) return;
+    names[0] += " " + names[1];
+    names.erase(names.begin() + 1);
+  }
+
+  /// Seconds behind a decimal comma would be a column of their own.
+  void require_whole_stamps(const std::vector<std::string>& names) {
+    const auto row = splitter_.split(sample_[first_].text);
+    const bool has_more_cells = names.back().empty() && !row.back().empty();
+    if (reading_.dialect.separator != ',' || !has_more_cells || !parse_time_stamp(row[0])) return;
+    line_ = sample_[first_].number;
+    throw InputError(
+        fmt::format("{}: time stamps with a decimal comma between commas; put the time stamps "
+                    "in quotes, or write them with a decimal point",
+                    arm::shown(row[0])));
+  }
+
   void read_names() {
+    if (counted_) {
+      columns_ = counted_->columns;
+      columns_.resize(reading_.cells);
+      assume(fmt::format("names are in line {}", sample_[counted_->head].number));
+    } else {
+      read_header();
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].name.empty()) columns_[i].name = fmt::format("column {}", i + 1);
+    }
+    auto beside =
+        settings_beside(std::span(sample_).subspan(first_), splitter_, decimal(), columns_);
+    beside_ = std::move(beside.columns);
+    if (!beside_.empty()) {
+      assume(fmt::format("settings of the instrument are in columns {} to {}", beside_.front() + 1,
+                         beside_.back() + 1));
+    }
+    for (const auto& sentence : beside.sentences) assume(arm::shown(sentence, 200));
+  }
+
+  void read_header() {
     std::vector<std::string> units;
     auto head = above(first_);
     auto names = head ? names_in(sample_[*head].text) : std::nullopt;
@@ -243,11 +272,12 @@ class TableReader {
         head = second;
       }
     }
+    if (names) require_whole_stamps(*names);
     for (std::size_t i = 0; i < reading_.cells; ++i) {
       ForeignColumn column;
-      column.name = names && !(*names)[i].empty() ? (*names)[i] : fmt::format("column {}", i + 1);
+      if (names) column.name = (*names)[i];
       column.unit = units.empty() ? split_column_name(column.name).unit : canonical_unit(units[i]);
-      table_.columns.push_back(std::move(column));
+      columns_.push_back(std::move(column));
     }
     if (names) {
       assume(fmt::format("names are in line {}", sample_[*head].number));
@@ -262,29 +292,34 @@ class TableReader {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   }
 
-  void assume(string_view sentence) { table_.assumptions.emplace_back(sentence); }
+  void assume(string_view sentence) { assumptions_.emplace_back(sentence); }
 
   void read_rows() {
     assume(fmt::format("cells are separated by {}", separator_name(reading_.dialect)));
     assume(fmt::format("numbers have a decimal {}", decimal() == ',' ? "comma" : "point"));
+    ColumnBuilder builder(columns_, decimal());
+    for (const std::size_t column : beside_) builder.take_as_text(column);
     LineReader lines(text_);
-    Line line;
-    Line short_row;
+    TextLine line;
+    TextLine short_row;
     while (lines.next(line)) {
       if (line.number < sample_[first_].number || is_passed_over(line.text)) continue;
       if (short_row.number > 0) require_cells(short_row);
       if (splitter_.split(line.text).size() < reading_.cells) {
         short_row = line;  // no fault yet, if it is the last one
       } else {
-        read_row(line);
+        require_cells(line);
+        builder.add_row(splitter_.split(line.text).first(reading_.cells), line.number);
       }
     }
     if (short_row.number > 0) {
       assume(fmt::format("last line {} incomplete and ignored", short_row.number));
     }
+    table_ = builder.finish();
+    std::ranges::move(table_.assumptions, std::back_inserter(assumptions_));
   }
 
-  void require_cells(const Line& line) {
+  void require_cells(const TextLine& line) {
     line_ = line.number;
     auto cells = splitter_.split(line.text);
     const bool ends_in_separator = cells.size() == reading_.cells + 1 && cells.back().empty();
@@ -294,58 +329,56 @@ class TableReader {
                                  separator_name(reading_.dialect)));
   }
 
-  void read_row(const Line& line) {
-    require_cells(line);
-    const auto cells = splitter_.split(line.text).first(reading_.cells);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      ForeignColumn& column = table_.columns[i];
-      if (column.is_text()) {
-        column.texts.emplace_back(cells[i]);
-      } else if (cells[i].empty()) {
-        column.values.push_back(std::numeric_limits<double>::quiet_NaN());
-      } else if (const auto value = parse_cell(cells[i], decimal())) {
-        column.values.push_back(*value);
-      } else if (holds_nothing(column) && !has_thousands_separators(cells[i], decimal())) {
-        column.texts.assign(column.values.size(), "");
-        column.texts.emplace_back(cells[i]);
-        column.values.clear();
-      } else {
-        throw InputError(fmt::format(
-            "column {} = {}: {}", arm::shown(column.name), arm::shown(cells[i]),
-            has_thousands_separators(cells[i], decimal())
-                ? "has thousands separators; write the number without them"
-                : fmt::format("must be a number with a decimal {}, as in the rows above",
-                              decimal() == ',' ? "comma" : "point")));
-      }
+  /// Times of a start and a period in front of the samples, where no column has any.
+  void add_times() {
+    SamplingSettings settings;
+    if (!std::ranges::any_of(table_.columns, is_time_column)) {
+      settings = counted_ ? counted_->settings
+                          : sampling_settings(std::span(sample_).first(first_),
+                                              reading_.dialect.separator, decimal());
     }
-    table_.line_of_row.push_back(line.number);
-  }
-
-  /// Whether all cells of the column so far are empty.
-  static bool holds_nothing(const ForeignColumn& column) {
-    return !column.is_text() &&
-           std::ranges::all_of(column.values, [](double value) { return std::isnan(value); });
-  }
-
-  /// Left by separators at the ends of the lines.
-  void drop_empty_last_columns() {
-    while (table_.columns.size() > 1) {
-      const ForeignColumn& last = table_.columns.back();
-      if (!holds_nothing(last) || !last.name.starts_with("column ")) return;
-      table_.columns.pop_back();
+    if (settings.period_s) {
+      assume(fmt::format("times begin at {} s and are {} s apart, as line {} tells",
+                         settings.start_s, *settings.period_s, settings.line));
+      ForeignColumn times{
+          "time [s]", "s",
+          grid_points({settings.start_s, *settings.period_s}, table_.line_of_row.size())};
+      times.is_made = true;
+      table_.columns.push_back(std::move(times));
     }
+    table_.assumptions = std::move(assumptions_);
   }
 
   string_view text_;
-  std::vector<Line> sample_;
+  std::vector<TextLine> sample_;
   Reading reading_;
   LineSplitter splitter_{','};
+  std::optional<CountedHeader> counted_;
   std::size_t first_ = 0;
+  std::vector<ForeignColumn> columns_;  ///< names and units
+  std::vector<std::size_t> beside_;     ///< columns of settings beside the samples
+  std::vector<std::string> assumptions_;
   ForeignTable table_;
   int line_ = 1;
 };
 
 }  // namespace
+
+bool is_time_column(const ForeignColumn& column) {
+  if (column.is_text()) return false;
+  const auto words = quantity_words();
+  const auto time = std::ranges::find(words, string_view("time"), &QuantityWords::quantity);
+  const bool is_named =
+      std::ranges::count(time->words, plain_letters(split_column_name(column.name).base)) > 0;
+  const auto units = units_for("s");
+  return is_named || column.is_stamp ||
+         std::ranges::count(units, string_view(column.unit), &Unit::name) > 0 ||
+         other_unit_scale("s", column.unit).has_value();
+}
+
+bool ForeignColumn::holds_nothing() const {
+  return !is_text() && std::ranges::all_of(values, [](double value) { return std::isnan(value); });
+}
 
 std::size_t find_column(const ForeignTable& table, string_view name) {
   std::vector<std::string> names;
@@ -366,6 +399,7 @@ ForeignTable parse_foreign_table(string_view bytes, const std::string& file_name
   } catch (const InputError& error) {
     throw arm::located(error, file_name, 0);
   }
+  if (is_labview_text(text.utf8)) return parse_labview_text(text.utf8, file_name);
   TableReader reader(text.utf8);
   try {
     ForeignTable table = reader.read();

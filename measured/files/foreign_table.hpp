@@ -14,9 +14,16 @@ struct ForeignColumn {
   std::string unit;  ///< told by the file, as `canonical_unit` has it; empty: not told
   std::vector<double> values;           ///< NaN for an empty cell; none in a column of text
   std::vector<std::string> texts = {};  ///< in place of the values in a column of text
+  bool is_stamp = false;                ///< seconds of time stamps, clocks or dates in the file
+  bool is_made = false;                 ///< times of a start and a period that the file tells
 
   bool is_text() const { return !texts.empty(); }
+  /// Whether it has no number at all.
+  bool holds_nothing() const;
 };
+
+/// Whether a column has times, by its name or unit.
+bool is_time_column(const ForeignColumn& column);
 
 /// Named columns of numbers, and what was assumed to get them, a sentence each.
 struct ForeignTable {
@@ -36,7 +43,10 @@ int line_of(const ForeignTable& table, std::size_t row);
 /// decimal point or comma; lines that end in LF, CRLF or CR; UTF-8, Latin-1, or UTF-16 with a
 /// byte-order mark; lines of anything in front; a line of names, or none, and perhaps one of units;
 /// comments (#, %, //), quoted cells, separators at the end of lines. The separator and the decimal
-/// mark are those that make most cells numbers.
+/// mark are those that make most cells numbers. Time stamps become seconds since the first one
+/// (measured/files/time_stamp.hpp). Heads of instruments tell the times of a file without a column
+/// of them (measured/files/sampling_settings.hpp, measured/files/instrument_head.hpp). A LabVIEW
+/// measurement file is read as measured/files/labview_text.hpp says.
 ///
 /// Throws InputError `FILE:LINE: what is wrong; what is allowed` for a file that is not text, has
 /// no two rows of two numbers or more, rows of unlike length, a cell that is no number in a column

@@ -271,7 +271,14 @@ class MeasurementReader : measured::TomlFaults {
     if (!is_whole) return std::nullopt;
     try {
       require_valid(name, mapping, table->contains("scale"));
-      if (!table->contains("scale")) mapping.scale = scale_of_unit(name, mapping.unit);
+      if (!table->contains("scale")) {
+        mapping.scale = scale_of_unit(name, mapping.unit);
+      } else if (unit_of(name, mapping.unit) &&
+                 repeats_conversion(name, mapping.unit, mapping.scale)) {
+        throw InputError(fmt::format(
+            "scale = {:.6g}: the factor of unit {}, which is applied already; leave scale out",
+            mapping.scale, mapping.unit));
+      }
     } catch (const InputError& error) {
       fault(line_of(node), fmt::format("{}.{}", key, error.what()));
       return std::nullopt;

@@ -63,10 +63,12 @@ TimeRecord samples_of(const TimeRecord& record, std::size_t first, std::size_t l
   return samples;
 }
 
-TimeRecord part_of(const TimeRecord& record, const RecordRange& range, std::size_t& first) {
+TimeRecord part_of(const TimeRecord& record, const RecordRange& range, std::size_t& first,
+                   std::span<const std::size_t> rows) {
   const std::size_t samples = record.time_s.size();
   const auto is_in = [&](std::size_t k) {
-    const double at = range.by_rows ? static_cast<double>(k + 1) : record.time_s[k];
+    const std::size_t row = rows.empty() ? k : rows[k];
+    const double at = range.by_rows ? static_cast<double>(row + 1) : record.time_s[k];
     return at >= range.from && at <= range.to;
   };
   first = 0;
@@ -78,7 +80,8 @@ TimeRecord part_of(const TimeRecord& record, const RecordRange& range, std::size
     throw InputError(
         fmt::format("{} sample{} in this range; the file has rows 1 to {}, times {} "
                     "s to {} s",
-                    last - first, last - first == 1 ? "" : "s", samples, earliest, latest));
+                    last - first, last - first == 1 ? "" : "s",
+                    rows.empty() ? samples : rows.back() + 1, earliest, latest));
   }
   return samples_of(record, first, last);
 }

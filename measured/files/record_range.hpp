@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,9 @@ RecordRange parse_range(std::string_view text, bool by_rows);
 TimeRecord samples_of(const TimeRecord& record, std::size_t first, std::size_t last);
 
 /// The samples in the range, from the first to the last whose row or time is in it; `first` is set
-/// to the first one. Throws InputError, with what the record has, where they are fewer than two.
-TimeRecord part_of(const TimeRecord& record, const RecordRange& range, std::size_t& first);
+/// to the first one. `rows` has the row of each sample in its file, from 0; empty: every row is
+/// one. Throws InputError, with what the record has, where the samples are fewer than two.
+TimeRecord part_of(const TimeRecord& record, const RecordRange& range, std::size_t& first,
+                   std::span<const std::size_t> rows = {});
 
 }  // namespace flexarm::measured

@@ -63,6 +63,7 @@ const std::vector<UnitWord>& unit_words() {
       {"kHz", {"kilohertz"}},
       {"counts", {"count", "cts", "ticks", "tick", "lsb"}},
       {"%", {"percent"}},
+      {"dB", {"decibel", "decibels"}},
   };
   return words;
 }

@@ -112,14 +112,6 @@ UniversalAxis axis_in(string_view line) {
   return axis;
 }
 
-/// FORTRAN writes a double's exponent with a D.
-std::optional<double> number_in(string_view field) {
-  if (const auto value = number_cell<double>(field)) return value;
-  std::string with_e(field);
-  std::ranges::replace(with_e, 'D', 'e');
-  return number_cell<double>(with_e);
-}
-
 /// Reads one data set after its first two lines.
 class FunctionReader {
  public:
@@ -272,7 +264,7 @@ class FunctionReader {
     std::vector<double> values;
     for (text = trimmed_line(text); !text.empty(); text = trimmed_line(text)) {
       const auto end = std::min(text.find_first_of(" \t"), text.size());
-      const auto value = number_in(text.substr(0, end));
+      const auto value = number_cell<double>(text.substr(0, end));
       if (!value) return false;
       values.push_back(*value);
       text.remove_prefix(end);
@@ -289,7 +281,7 @@ class FunctionReader {
       const auto width = static_cast<std::size_t>(layout_.width(done % layout_.numbers()));
       const string_view field = fields.text(width);
       if (field.empty()) return;
-      const auto value = number_in(field);
+      const auto value = number_cell<double>(field);
       if (!value) {
         throw InputError(
             fmt::format("{}: must be a number in {} columns", arm::shown(field), width));
@@ -307,10 +299,13 @@ class FunctionReader {
   UniversalFunction function_;
 };
 
-void pass_over(Cursor& cursor) {
+/// The lines of a data set, to its end.
+std::vector<string_view> lines_to_end(Cursor& cursor) {
+  std::vector<string_view> lines;
   string_view line;
   while (cursor.next(line)) {
-    if (trimmed_line(line) == "-1") return;
+    if (trimmed_line(line) == "-1") return lines;
+    lines.push_back(line);
   }
   throw InputError("file incomplete: data set without its end line -1");
 }
@@ -334,21 +329,26 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
           throw InputError(fmt::format("more than {} data sets 58", kMostRecordColumns));
         }
         file.functions.push_back(FunctionReader(cursor, line).read());
+      } else if (number == "55") {
+        const auto lines = lines_to_end(cursor);
+        file.modes.push_back(read_universal_mode(lines));
       } else {
         if (!number_cell<int>(number)) {
           throw InputError(
               fmt::format("{}: must be the number of a data set", arm::shown(trimmed_line(line))));
         }
         file.passed_over.emplace_back(number);
-        pass_over(cursor);
+        lines_to_end(cursor);
       }
     }
-    if (file.functions.empty()) {
-      throw InputError(file.passed_over.empty()
-                           ? "empty; must have one data set 58 or more"
-                           : "has no data set 58, which holds time and frequency responses");
+    if (file.functions.empty() && file.modes.empty()) {
+      throw InputError(
+          file.passed_over.empty()
+              ? "empty; must have one data set 58 or more"
+              : "has no data set 58, which holds time and frequency responses, nor 55, "
+                "which holds modes");
     }
-    file.functions = joined(std::move(file.functions));
+    if (!file.functions.empty()) file.functions = joined(std::move(file.functions));
   } catch (const InputError& error) {
     throw arm::located(error, file_name, cursor.line());
   }

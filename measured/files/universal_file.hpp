@@ -1,5 +1,7 @@
 #pragma once
 
+#include "measured/files/universal_modes.hpp"
+
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -62,9 +64,10 @@ struct UniversalFunction {
   bool operator==(const UniversalFunction&) const = default;
 };
 
-/// The functions of a universal file, and the numbers of the data sets that are none.
+/// The functions and modes of a universal file, and the numbers of the data sets that are neither.
 struct UniversalFile {
   std::vector<UniversalFunction> functions;
+  std::vector<UniversalMode> modes;
   std::vector<std::string> passed_over;
 };
 
@@ -75,8 +78,9 @@ struct UniversalOptions {
   bool single_precision = false;
 };
 
-/// Reads every data set 58 and 58b: text and binary (IEEE 754, little and big endian), even and
-/// uneven abscissa, real and complex, single and double precision.
+/// Reads every data set 55 (measured/files/universal_modes.hpp), 58 and 58b: text and binary (IEEE
+/// 754, little and big endian), even and uneven abscissa, real and complex, single and double
+/// precision.
 ///
 /// Throws InputError `FILE:LINE: what is wrong` for a file that cannot be read, is no universal
 /// file or is cut off, and for numbers that are none or not finite; lines count as far as the text

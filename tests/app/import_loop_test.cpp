@@ -226,11 +226,18 @@ TEST_F(ImportLoop, AControllerOfASensorThatIsNotRecordedIsAWarning) {
               Not(HasSubstr("warning")));
 }
 
-TEST_F(ImportLoop, AMissingValueOfTheReferenceIsNamedWithItsLine) {
-  write("log.csv", "t_s,i_A,counts,cmd_deg\n0,0,0,1\n0.002,0,0,\n0.004,0,1,1\n");
-  expect_refused(import({"--reference", "cmd_deg", "--controller", "kp=1"}),
-                 "log.csv:3: reference: column cmd_deg = nan (or an empty cell): must be a finite "
-                 "number");
+TEST_F(ImportLoop, AMissingValueOfTheReferenceIsAMissingSample) {
+  std::string log = loop_log(20);
+  const std::string row = "0.010000,0.5,5,5,5\n";
+  log.replace(log.find(row), row.size(), "0.010000,0.5,5,5,\n");
+  write("log.csv", log);
+  const Ended ended = import({"--reference", "cmd_deg", "--controller", "kp=1", "--out", "bench"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("1 of 20 rows left out, as missing samples"));
+  EXPECT_EQ(std::get<measured::TimeRecord>(
+                measured::read_run(folder_ / "bench/measurement.toml", run_in("bench", 0)))
+                .time_s.size(),
+            20U);
 }
 
 }  // namespace

@@ -194,7 +194,7 @@ TEST_F(Import, FrequencyRecordsAndModalTablesAreReadToo) {
   ASSERT_EQ(import({"f.uff", "--out", "g"}).status, 0);
   EXPECT_EQ(run_in("g"), run_in("f"));
   expect_refused(import({"f.uff", "--time-unit", "ms"}),
-                 "--compute, --torque, --time-unit, --reference: only for time signals");
+                 "--compute, --torque, --time-unit, --reference, --own-rate: only for time signals");
   write("m.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,11.8\nhub_angle,zero,1,2.9\n");
   ASSERT_EQ(import({"m.csv", "--out", "m"}).status, 0);
   EXPECT_EQ(std::get<measured::ModalTable>(run_in("m")).size(), 2U);
@@ -230,7 +230,10 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
           "--column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "
           "in 0.202*pi/180");
   refused({"--kind", "tme"}, "--kind tme: must be time or frf or modal (did you mean time?)");
-  refused({"--kind", "frf"}, "--kind frf: the file contains time signals");
+  refused({"--kind", "frf"},
+          "--kind frf: no columns of a frequency response are recognised; state the parts with "
+          "--column frequency=NAME:Hz, --column hub_angle.magnitude=NAME:dB and --column "
+          "hub_angle.phase=NAME:deg, or hub_angle.real and hub_angle.imaginary");
   refused({"--save-as", "a.xls"},
           "--save-as a.xls: must be a .csv, .uff or .mat file, or used with --to csv or uff58 or "
           "uff58b or mat");

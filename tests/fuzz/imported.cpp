@@ -2,6 +2,7 @@
 
 #include "measured/files/column_guess.hpp"
 #include "measured/files/column_mapping.hpp"
+#include "measured/files/complete_rows.hpp"
 #include "measured/files/even_record.hpp"
 #include "measured/files/frequency_record.hpp"
 #include "measured/files/time_record.hpp"
@@ -20,14 +21,13 @@ using measured::ForeignFile;
 constexpr const char* kFile = "file";
 
 void import_signals(const ForeignFile& file) {
-  std::vector<ColumnLabel> labels;
-  for (const auto& column : file.table.columns) {
-    labels.push_back({column.name, column.unit, column.is_text()});
-  }
-  const measured::ColumnGuess guess = measured::guess_columns(labels, {});
+  measured::ForeignTable table = file.table;
+  const measured::ColumnGuess guess = measured::guess_columns(measured::labels_of(table), {});
   for (const auto& note : guess.notes) require_clean_line(note);
   for (const auto& question : guess.questions) require_clean_line(question.sentence);
-  const measured::TimeRecord uneven = measured::uneven_record_of(file.table, guess.mappings, kFile);
+  const auto kept = measured::keep_complete_rows(table, guess.mappings, nullptr, {});
+  for (const auto& note : kept.notes) require_clean_line(note);
+  const measured::TimeRecord uneven = measured::uneven_record_of(table, guess.mappings, kFile);
   for (const auto& record : measured::make_even(uneven).stretches) {
     require(measured::parse_time_record(measured::format_time_record(record), kFile) == record,
             "a time record is not read back as it was written");

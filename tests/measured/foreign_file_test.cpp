@@ -151,7 +151,8 @@ TEST_F(ForeignFileTest, ResponsesOfAnAnalyserAreMappedIntoSi) {
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "a: FRF, node 3 -rz: reference in V is not a torque; give a scale to rad per N m");
+                 "a: FRF, node 3 -rz: a response to V, not to a torque; state its scale in V per N "
+                 "m, as in --column 'hub_angle=FRF, node 3 -rz:deg:SCALE'");
   }
 }
 

@@ -178,6 +178,11 @@ const std::vector<Mistake> kMeasurementMistakes = {
     {"ExpressionInAForeignUnit",
      kMeasurementHead + kRun + "columns = { time = { expression = \"V\", unit = \"A\" } }\n",
      "7: run.columns.time.unit = A: not one of s, ms, us, ns, min; give scale in s per A"},
+    {"ScaleOfTheUnitTwice",
+     kMeasurementHead + kRun +
+         "columns = { time = { name = \"t\", unit = \"ms\", scale = 0.001 } }\n",
+     "7: run.columns.time.scale = 0.001: the factor of unit ms, which is applied already; leave "
+     "scale out"},
     {"ScaleZero", kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
      "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
     {"ScaleIsAText",

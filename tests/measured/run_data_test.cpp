@@ -88,7 +88,8 @@ TEST_F(RunDataTest, WhatAForeignLogLacksIsSaid) {
   run.columns["torque"] = {"Vm", "N m", 1.0};
   run.columns["hub_angle"] = {"enc", "rad", 1.0};
   EXPECT_EQ(refusal(run),
-            "log.txt:3: hub_angle: column enc = nan (or an empty cell): must be a finite number");
+            "log.txt:3: hub_angle: column enc = nan (or an empty cell): must be a finite number; "
+            "flexarm import takes such rows as missing samples");
   write("log.txt", "t,Vm,enc\n0,1,2\n1,1,2\n1,1,3\n");
   EXPECT_EQ(refusal(run),
             "log.txt:4: time = 1 s: same as the previous sample; must be strictly increasing");

@@ -235,7 +235,7 @@ const std::vector<Mistake> kUniversalFileMistakes = {
     {"NoUniversalFile", "t,u\n0,1\n",
      "1: not a universal file: a data set begins with a line of -1 alone"},
     {"NoDataSet58", "    -1\n   151\n    -1\n",
-     "3: has no data set 58, which holds time and frequency responses"},
+     "3: has no data set 58, which holds time and frequency responses, nor 55, which holds modes"},
     {"CutOffInTheHead", std::string(kHead58), "8: file incomplete"},
     {"CutOffInTheNumbers",
      sample("         2         7         1  0.00000E+00  5.00000E-03  0.00000E+00\n",

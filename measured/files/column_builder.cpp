@@ -1,0 +1,126 @@
+#include "measured/files/column_builder.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/delimited_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+using std::string_view;
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+ColumnBuilder::ColumnBuilder(std::vector<ForeignColumn> columns, char decimal) : decimal_(decimal) {
+  for (auto& column : columns) columns_.push_back({std::move(column)});
+}
+
+void ColumnBuilder::begin_texts(Column& column) const {
+  column.kind = Kind::texts;
+  column.column.texts.assign(line_of_row_.size(), column.first_stamp);
+  column.column.values.clear();
+  column.stamps.clear();
+}
+
+void ColumnBuilder::take_as_text(std::size_t column) {
+  begin_texts(columns_[column]);
+}
+
+void ColumnBuilder::add_cell(Column& column, string_view cell) const {
+  auto& values = column.column.values;
+  if (column.kind == Kind::texts) {
+    column.column.texts.emplace_back(cell);
+  } else if (const auto value = parse_cell(cell, decimal_); value && column.kind != Kind::stamps) {
+    values.push_back(*value);
+    if (!std::isnan(*value)) column.kind = Kind::numbers;
+  } else if (is_missing_number(cell)) {
+    values.push_back(kMissing);
+    if (column.kind == Kind::stamps) column.stamps.emplace_back();
+  } else if (column.kind == Kind::numbers || has_thousands_separators(cell, decimal_)) {
+    throw InputError(
+        fmt::format("column {} = {}: {}", arm::shown(column.column.name), arm::shown(cell),
+                    has_thousands_separators(cell, decimal_)
+                        ? "has thousands separators; write the number without them"
+                        : fmt::format("must be a number with a decimal {}, as in the rows above",
+                                      decimal_ == ',' ? "comma" : "point")));
+  } else if (auto stamp = parse_time_stamp(cell)) {
+    if (column.kind == Kind::open) {
+      column.kind = Kind::stamps;
+      column.first_stamp = cell;
+      column.stamps.resize(values.size());
+    }
+    values.push_back(kMissing);
+    column.stamps.push_back(*stamp);
+  } else {
+    begin_texts(column);
+    column.column.texts.emplace_back(cell);
+  }
+}
+
+void ColumnBuilder::add_row(std::span<const string_view> cells, int line) {
+  for (std::size_t i = 0; i < columns_.size(); ++i) add_cell(columns_[i], cells[i]);
+  line_of_row_.push_back(line);
+}
+
+/// The only column of dates without a clock.
+const ColumnBuilder::Column* ColumnBuilder::dates_for_clocks() const {
+  const Column* found = nullptr;
+  for (const auto& column : columns_) {
+    const auto first =
+        std::ranges::find_if(column.stamps, [](const auto& stamp) { return !!stamp; });
+    if (first == column.stamps.end() || (*first)->clock_ns) continue;
+    if (found != nullptr) return nullptr;
+    found = &column;
+  }
+  return found;
+}
+
+void ColumnBuilder::convert_stamps() {
+  const Column* dates = dates_for_clocks();
+  for (auto& column : columns_) {
+    if (column.kind != Kind::stamps || &column == dates) continue;
+    const auto first =
+        std::ranges::find_if(column.stamps, [](const auto& stamp) { return !!stamp; });
+    const bool has_date = (*first)->has_date();
+    if (!(*first)->clock_ns) {  // one of several columns of dates
+      begin_texts(column);
+      continue;
+    }
+    const bool is_completed = !has_date && dates != nullptr;
+    column.column.values = is_completed ? seconds_since_first(column.stamps, dates->stamps)
+                                        : seconds_since_first(column.stamps);
+    column.column.unit = "s";
+    column.column.is_stamp = true;
+    assumptions_.push_back(fmt::format("{} is the time since {}{}", arm::shown(column.column.name),
+                                       is_completed ? arm::shown(dates->first_stamp) + " " : "",
+                                       arm::shown(column.first_stamp)));
+  }
+  for (auto& column : columns_) {
+    if (&column == dates) begin_texts(column);
+  }
+}
+
+ForeignTable ColumnBuilder::finish() {
+  convert_stamps();
+  while (columns_.size() > 1 && columns_.back().kind == Kind::open &&
+         columns_.back().column.name.starts_with("column ")) {
+    columns_.pop_back();
+  }
+  ForeignTable table;
+  for (auto& column : columns_) table.columns.push_back(std::move(column.column));
+  table.line_of_row = std::move(line_of_row_);
+  table.assumptions = std::move(assumptions_);
+  return table;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,49 @@
+#include "measured/files/response_unit.hpp"
+
+#include "measured/files/column_mapping.hpp"
+#include "measured/files/column_name.hpp"
+#include "measured/files/delimited_line.hpp"
+#include "measured/files/unit_spelling.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace flexarm::measured {
+
+namespace {
+
+using std::string_view;
+
+/// Whether a response may be to something in the unit.
+bool is_input_unit(const std::string& unit) {
+  constexpr std::array<string_view, 7> kOthers = {"N", "mN", "kN", "V", "mV", "A", "mA"};
+  return !unit.empty() && (is_unit_of("torque", unit) || std::ranges::count(kOthers, unit) > 0);
+}
+
+bool split_at(string_view text, std::size_t at, std::size_t size, ResponseUnit& unit) {
+  const std::string front = canonical_unit(text.substr(0, at));
+  const std::string behind = canonical_unit(text.substr(at + size));
+  if (!is_canonical_unit(front) || !is_input_unit(behind)) return false;
+  unit = {front, behind};
+  return true;
+}
+
+}  // namespace
+
+ResponseUnit split_response_unit(string_view text) {
+  const std::string whole = canonical_unit(text);
+  ResponseUnit unit{whole, ""};
+  if (is_canonical_unit(whole)) return unit;
+  const string_view inside = whole;  // without brackets around
+  constexpr string_view kPer = " per ";
+  for (std::size_t at = inside.rfind('/'); at != string_view::npos && at > 0;
+       at = inside.rfind('/', at - 1)) {
+    if (split_at(inside, at, 1, unit)) return unit;
+  }
+  if (const auto at = inside.rfind(kPer); at != string_view::npos) {
+    split_at(inside, at, kPer.size(), unit);
+  }
+  return unit;
+}
+
+}  // namespace flexarm::measured

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace flexarm::measured {
+
+/// The unit of a frequency response: of what was measured, and of what it is a response to.
+struct ResponseUnit {
+  std::string unit;  ///< canonical; empty: not told
+  std::string per;   ///< canonical: a torque, a force, a voltage or a current; empty: not told
+};
+
+/// "rad/N m", "deg/(N m)", "(m/s^2)/N", "ustrain per Nm" taken apart; any other unit, "rad/s", is
+/// of what was measured.
+ResponseUnit split_response_unit(std::string_view text);
+
+}  // namespace flexarm::measured

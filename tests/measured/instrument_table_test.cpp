@@ -1,0 +1,169 @@
+// Tables of oscilloscopes and recorders: heads that tell start and period, settings beside samples.
+#include "measured/files/column_guess.hpp"
+#include "measured/files/foreign_table.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace flexarm::measured {
+namespace {
+
+using testing::Contains;
+using testing::DoubleEq;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const ForeignColumn& column(const ForeignTable& table, const std::string& name) {
+  return table.columns[find_column(table, name)];
+}
+
+/// A layout whose two signals are 1, 2, 3 and 4, 5, 6 at -0.1, -0.098 and -0.096 s.
+struct Layout {
+  const char* name;
+  std::string text;
+  const char* first;
+  const char* second;
+};
+
+void PrintTo(const Layout& layout, std::ostream* out) {
+  *out << layout.name;
+}
+
+class InstrumentTable : public testing::TestWithParam<Layout> {};
+
+TEST_P(InstrumentTable, HasTimesAndSignals) {
+  const ForeignTable table = parse_foreign_table(GetParam().text, "scope.csv");
+  const auto guess = guess_columns(labels_of(table), {});
+  ASSERT_TRUE(guess.mappings.contains("time"));
+  const auto& time = column(table, guess.mappings.at("time").name);
+  std::vector<double> times_s;
+  for (const double value : time.values) {
+    times_s.push_back(value * conversion_of("time", time.unit).value());
+  }
+  EXPECT_THAT(times_s, ElementsAre(DoubleEq(-0.1), DoubleEq(-0.098), DoubleEq(-0.096)));
+  EXPECT_THAT(column(table, GetParam().first).values, ElementsAre(1.0, 2.0, 3.0));
+  EXPECT_THAT(column(table, GetParam().second).values, ElementsAre(4.0, 5.0, 6.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , InstrumentTable,
+    testing::Values(
+        Layout{"RigolWithSequence",
+               "X,CH1,CH2,Start,Increment,\nSequence,Volt,Volt,-1.0e-1,2.0e-03\n0,1,4,,\n1,2,5,,\n"
+               "2,3,6,,\n",
+               "CH1", "CH2"},
+        Layout{
+            "RigolWithShortRows",
+            "X,CH1,CH2,Start,Increment\nSequence,Volt,Volt,-1.0e-1,2.0e-03\n0,1,4\n1,2,5\n2,3,6\n",
+            "CH1", "CH2"},
+        Layout{"RigolInOneLine", "CH1V,CH2V,t0 = -1.0e-01, tInc = 2.0e-03,\n1,4\n2,5\n3,6\n",
+               "CH1V", "CH2V"},
+        Layout{"RigolWithSeconds",
+               "X,CH1,CH2\nSecond,Volt,Volt\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "CH1", "CH2"},
+        Layout{"Keysight", "x-axis,1,2\nsecond,Volt,Volt\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "1",
+               "2"},
+        Layout{
+            "Siglent",
+            "Record Length,Analog:3\nSample Interval,Analog:2.0E-03\nVertical Units,CH1:V,CH2:V\n"
+            "Horizontal Units,s\nModel Number,SDS1204X-E\nSource,CH1,CH2\nSecond,Volt,Volt\n"
+            "-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n",
+            "CH1", "CH2"},
+        Layout{"TektronixWithPreamble",
+               "Model,MSO4034\nFirmware Version,2.48\n\nHorizontal Units,s\nSample Interval,2e-3\n"
+               "Record Length,3\nVertical Units,V,V\nLabel,,\nTIME,CH1,CH2\n-0.1,1,4\n-0.098,2,5\n"
+               "-0.096,3,6\n",
+               "CH1", "CH2"},
+        Layout{"PicoScope",
+               "Time,Channel A,Channel B\n(ms),(V),(V)\n\n-100,1,4\n-98,2,5\n-96,3,6\n",
+               "Channel A", "Channel B"},
+        Layout{"Rohde", "in s,CH1 in V,CH2 in V\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "CH1 in V",
+               "CH2 in V"},
+        Layout{"RateInThePreamble",
+               "Recorder 7\nSampling rate: 500 Hz\nt0 = -0.1 s\ntorque;angle\n1;4\n2;5\n3;6\n",
+               "torque", "angle"},
+        Layout{"RateInAComment", "# X0 = -0.1\n# Delta t = 2 ms\n# torque angle\n1 4\n2 5\n3 6\n",
+               "torque", "angle"}),
+    [](const auto& layout) { return std::string(layout.param.name); });
+
+/// Settings take more rows than are read as head.
+std::string tektronix(bool second) {
+  const std::vector<std::string> settings = {"Record Length,30,Points", "Sample Interval,0.002,s",
+                                             "Trigger Point,0,Samples", "Source,CH1,",
+                                             "Vertical Units,V,",       "Horizontal Units,s,"};
+  std::string text;
+  for (std::size_t k = 0; k < 30; ++k) {
+    const std::string beside = k < settings.size() ? settings[k] : ",,";
+    text += fmt::format("{},{:.6f},{:.5f},", beside, 0.002 * static_cast<double>(k),
+                        0.1 * static_cast<double>(k));
+    if (second) {
+      std::string other = beside;
+      if (other.starts_with("Source")) other = "Source,CH2,";
+      text += fmt::format(",{},{:.6f},{:.5f},", other, 0.002 * static_cast<double>(k),
+                          -0.1 * static_cast<double>(k));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(InstrumentHead, SettingsBesideSamplesAreNoSamples) {
+  for (const bool second : {false, true}) {
+    const ForeignTable table = parse_foreign_table(tektronix(second), "tek.csv");
+    EXPECT_THAT(table.assumptions, Contains("the instrument recorded CH1 in V"));
+    EXPECT_EQ(column(table, "#4").name, "time");
+    EXPECT_EQ(column(table, "time").values.size(), 30U);
+    EXPECT_DOUBLE_EQ(column(table, "time").values[29], 0.058);
+    EXPECT_DOUBLE_EQ(column(table, "CH1").values[29], 2.9);
+    if (second) {
+      EXPECT_DOUBLE_EQ(column(table, "CH2").values[29], -2.9);
+    }
+    const auto guess = guess_columns(labels_of(table), {});
+    EXPECT_EQ(guess.mappings.at("time").name, "time");
+  }
+}
+
+TEST(InstrumentHead, ATimeThatIsMadeIsSaid) {
+  const auto table = parse_foreign_table("Sample Interval,5,ms\nu,y\n1,2\n2,3\n3,4\n", "log");
+  EXPECT_THAT(column(table, "time [s]").values, ElementsAre(0.0, 0.005, 0.01));
+  EXPECT_THAT(table.assumptions,
+              Contains("times begin at 0 s and are 0.005 s apart, as line 1 tells"));
+}
+
+/// Columns of a machine that are called so, with numbers in each row.
+TEST(InstrumentHead, ColumnsOfThatNameAreNoHead) {
+  const auto table = parse_foreign_table("t,u,Start,Increment\n0,1,2,3\n1,2,3,4\n2,3,4,5\n", "log");
+  EXPECT_THAT(column(table, "Increment").values, ElementsAre(3.0, 4.0, 5.0));
+  EXPECT_EQ(table.columns.size(), 4U);
+}
+
+/// The first rows may have empty cells; no sample is lost.
+TEST(InstrumentHead, IncompleteRowsAtTheBeginningAreRows) {
+  for (const auto* text :
+       {"t,u,y\n0,,\n1,2,3\n2,,\n3,4,5\n4,5,6\n", "t;u;y\n0;;NaN\n1;-;3\n2;2;3\n3;4;5\n4;5;6\n"}) {
+    const auto table = parse_foreign_table(text, "log");
+    EXPECT_EQ(table.columns[0].name, "t");
+    EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 1.0, 2.0, 3.0, 4.0)) << text;
+  }
+}
+
+TEST(InstrumentHead, AMinusSignOfASpreadsheetIsRead) {
+  const auto table = parse_foreign_table(
+      "t,u\n0,\xe2\x88\x92"
+      "1.5\n1,2\n",
+      "log");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(-1.5, 2.0));
+}
+
+TEST(InstrumentHead, ExponentsOfFortranAreNumbers) {
+  const auto table = parse_foreign_table(
+      "t u y\n 0.000D+00 1.8000D-03 -1.0d+00\n 1.000D+00 1.9000D-03 2.5D0\n", "log");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(1.8e-3, 1.9e-3));
+  EXPECT_THAT(table.columns[2].values, ElementsAre(-1.0, 2.5));
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -1,0 +1,191 @@
+#include "measured/files/response_columns.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/foreign_table.hpp"
+#include "measured/files/response_unit.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace flexarm::measured {
+namespace {
+
+using Complex = std::complex<double>;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::vector<Complex> kResponse = {{-9.2, -2.9}, {0.5, 0.25}, {1e-3, -2e-3}};
+const std::vector<double> kFrequency_Hz = {0.5, 4.0, 40.0};
+constexpr double kWholeTurn_rad = 2.0 * std::numbers::pi;
+
+/// Rows of what `cells` makes of a frequency and its response.
+template <class Cells>
+std::string table_text(const std::string& header, const Cells& cells) {
+  std::string text = header + "\n";
+  for (std::size_t k = 0; k < kResponse.size(); ++k) {
+    text += cells(kFrequency_Hz[k], kResponse[k]) + "\n";
+  }
+  return text;
+}
+
+std::string polar(double f, Complex h, const char* separator, bool decibel, bool degrees) {
+  return fmt::format("{1:.17g}{0}{2:.17g}{0}{3:.17g}", separator, f,
+                     decibel ? 20.0 * std::log10(std::abs(h)) : std::abs(h),
+                     degrees ? std::arg(h) * 180.0 / std::numbers::pi : std::arg(h));
+}
+
+void expect_response(const ForeignResponse& response) {
+  ASSERT_EQ(response.response.size(), kResponse.size());
+  for (std::size_t k = 0; k < kResponse.size(); ++k) {
+    EXPECT_NEAR(response.frequency_Hz[k], kFrequency_Hz[k], 1e-12 * kFrequency_Hz[k]);
+    // Two logarithms and an angle in degrees.
+    EXPECT_LT(std::abs(response.response[k] - kResponse[k]), 1e-13 * std::abs(kResponse[k]));
+  }
+}
+
+TEST(ResponseColumns, UsualHeadersArePartsOfAResponse) {
+  struct Header {
+    const char* text;
+    bool decibel;
+    bool degrees;
+    const char* name;
+    const char* unit;
+  };
+  for (const Header& header :
+       {Header{"Frequency (Hz),Magnitude (dB),Phase (deg)", true, true, "Magnitude (dB)", ""},
+        Header{"f_Hz,mag_dB,phase_deg", true, true, "mag_dB", ""},
+        Header{"Freq [Hz],Gain [dB],Phase [\xc2\xb0]", true, true, "Gain [dB]", ""},
+        Header{"freq,H1 mag [rad/(N m)],H1 phase [rad]", false, false, "H1", "rad"},
+        Header{"Frequenz [Hz],Betrag [deg/Nm],Phase [rad]", false, false, "Betrag [deg/Nm]", "deg"},
+        Header{"f,|H| [1],arg(H) [deg]", false, true, "|H| [1]", ""},
+        Header{"Hz,magH1,phaseH1 (rad)", false, false, "H1", ""},
+        Header{"Frequency,Amplitude ratio (dB),Phase angle (deg)", true, true, "ratio", ""},
+        Header{"Frequency,Magnitude,Phase\nHz,dB,deg", true, true, "Magnitude", ""},
+        Header{"frequency,hub_angle magnitude (dB re 1 rad/(N m)),hub_angle phase (deg)", true,
+               true, "hub_angle", "rad"},
+        Header{"frequency,strain@0.05_mag (dB),strain@0.05_phase (deg)", true, true, "strain@0.05",
+               ""}}) {
+    const auto table = parse_foreign_table(
+        table_text(
+            header.text,
+            [&](double f, Complex h) { return polar(f, h, ",", header.decibel, header.degrees); }),
+        "bode.csv");
+    const auto made = responses_in(table);
+    ASSERT_EQ(made.responses.size(), 1U) << header.text << made.incomplete;
+    EXPECT_EQ(made.responses[0].unit, header.unit) << header.text;
+    if (header.text != std::string("f,|H| [1],arg(H) [deg]")) {
+      EXPECT_EQ(made.responses[0].name, header.name);
+    }
+    expect_response(made.responses[0]);
+  }
+}
+
+TEST(ResponseColumns, RealAndImaginaryPartsWithCoherenceAndAngularFrequency) {
+  for (const auto* header : {"w [rad/s];Re(H);Im(H);Coherence", "omega;Real;Imag;Coh",
+                             "Kreisfrequenz;Realteil;Imagin\xc3\xa4rteil;Koh\xc3\xa4renz"}) {
+    const auto table =
+        parse_foreign_table(table_text(header,
+                                       [](double f, Complex h) {
+                                         return fmt::format("{:.17g};{};{};0.99",
+                                                            kWholeTurn_rad * f, h.real(), h.imag());
+                                       }),
+                            "reim.csv");
+    const auto made = responses_in(table);
+    ASSERT_EQ(made.responses.size(), 1U) << header;
+    expect_response(made.responses[0]);
+    EXPECT_THAT(made.responses[0].coherence, ElementsAre(0.99, 0.99, 0.99));
+  }
+}
+
+TEST(ResponseColumns, SeveralResponsesStandBesideEachOther) {
+  const auto table = parse_foreign_table(
+      table_text("Frequency (Hz),Channel 1 Magnitude (dB),H1 mag (dB),H1 phase (deg),H2 re,H2 im,"
+                 "Coherence 1,Coherence 2",
+                 [](double f, Complex h) {
+                   const auto columns = polar(f, h, ",", true, true);
+                   const auto first = columns.find(',');
+                   return columns.substr(0, first) + ",7" + columns.substr(first) +
+                          fmt::format(",{},{},0.5,", h.real(), h.imag());
+                 }),
+      "two.csv");
+  const auto made = responses_in(table);
+  ASSERT_EQ(made.responses.size(), 2U);
+  EXPECT_EQ(made.responses[0].name, "H1");
+  EXPECT_EQ(made.responses[1].name, "H2");
+  expect_response(made.responses[0]);
+  expect_response(made.responses[1]);
+  EXPECT_THAT(made.notes, Contains("response Channel 1: magnitude without phase; left out"));
+}
+
+TEST(ResponseColumns, WhatIsNotToldIsAssumedAndSaid) {
+  const auto table = parse_foreign_table("f,mag,phase\n2,-3,170\n1,-6,-170\n,1,1\n3,,1\n", "a.csv");
+  const auto made = responses_in(table);
+  ASSERT_EQ(made.responses.size(), 1U);
+  EXPECT_THAT(made.responses[0].frequency_Hz, ElementsAre(1.0, 2.0));  // ascending
+  EXPECT_NEAR(std::abs(made.responses[0].response[0]), std::pow(10.0, -0.3), 1e-15);
+  EXPECT_THAT(made.notes, Contains("unit of mag not given; dB assumed"));
+  EXPECT_THAT(made.notes, Contains("unit of phase not given; deg assumed"));
+  EXPECT_THAT(made.notes, Contains("2 of 4 lines left out: a cell is empty or not finite"));
+  const auto unclear = parse_foreign_table("f,mag,phase\n1,1,-8\n2,1,-9\n", "a.csv");
+  EXPECT_THROW(responses_in(unclear), arm::InputError);
+}
+
+TEST(ResponseColumns, SignalsInTimeAreNone) {
+  for (const auto* text :
+       {"t,f,mag,phase\n0,1,1,1\n1,1,1,1\n", "time,torque,hub_angle\n0,1,2\n1,1,2\n",
+        "torque,hub_angle,phase\n0,1,2\n1,1,2\n"}) {
+    EXPECT_TRUE(responses_in(parse_foreign_table(text, "a")).responses.empty()) << text;
+  }
+  EXPECT_EQ(responses_in(parse_foreign_table("f,mag\n1,2\n2,3\n", "a")).incomplete,
+            "response without a name: magnitude without phase");
+}
+
+TEST(ResponseColumns, PartsMayBeStated) {
+  const auto table = parse_foreign_table(
+      table_text("a,b,c", [](double f, Complex h) { return polar(f, h, ",", true, true); }),
+      "a.csv");
+  const auto made = responses_of(table, {{ResponsePart::frequency, "", 0, "Hz"},
+                                         {ResponsePart::magnitude, "hub_angle [rad]", 1, "dB"},
+                                         {ResponsePart::phase, "hub_angle [rad]", 2, "deg"}});
+  ASSERT_EQ(made.responses.size(), 1U);
+  expect_response(made.responses[0]);
+  EXPECT_THROW(responses_of(table, {{ResponsePart::magnitude, "x", 1, "dB"}}), arm::InputError);
+  EXPECT_THROW(responses_of(table, {{ResponsePart::frequency, "", 0, "Hz"},
+                                    {ResponsePart::magnitude, "x", 1, "dB"}}),
+               arm::InputError);
+}
+
+TEST(ResponseUnit, UnitsAreTakenApart) {
+  const auto expect = [](const char* text, const char* unit, const char* per) {
+    const ResponseUnit split = split_response_unit(text);
+    EXPECT_EQ(split.unit, unit) << text;
+    EXPECT_EQ(split.per, per) << text;
+  };
+  expect("rad/N m", "rad", "N m");
+  expect("rad/(N m)", "rad", "N m");
+  expect("(rad)/(N*m)", "rad", "N m");
+  expect("deg/(N m)", "deg", "N m");
+  expect("deg per Nm", "deg", "N m");
+  expect("rad/s/(N m)", "rad/s", "N m");
+  expect("(m/s^2)/N", "m/s^2", "N");
+  expect("m/s\xc2\xb2/N", "m/s^2", "N");
+  expect("g/N", "g", "N");
+  expect("ustrain/Nmm", "ustrain", "N mm");
+  expect("1/(N m)", "1", "N m");
+  expect("rad/s", "rad/s", "");
+  expect("m/s^2", "m/s^2", "");
+  expect("rad", "rad", "");
+  expect("", "", "");
+  expect("furlong/N", "furlong/N", "");
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -119,23 +119,22 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
   return notes;
 }
 
-/// What the sampling does not show of the modes kept, once for each kind of run.
-std::string sampling_notes(const experiment::SimulatedExperiment& experiment) {
-  std::string notes;
+/// What the coarsest sampling does not show of the modes that are seen in the readings.
+std::string sampling_note(const experiment::SimulatedExperiment& experiment) {
+  double longest_s = 0.0;
   for (const auto& run : experiment.runs) {
-    const auto& summary = run.simulation.summary;
-    if (summary.sampling == response::Sampling::fine) continue;
-    const double period_s = measured::sampling_period_s(run.record);
-    notes += screen_note(fmt::format(
-        "{}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
-        "exact. Use a sampling period of {:.2g} s or fewer modes.",
-        run.id, 1.0 / (summary.samples_per_period * period_s), summary.samples_per_period,
-        summary.sampling == response::Sampling::aliased
-            ? "the mode is aliased"
-            : "sampled peaks may be 5 % too low or more",
-        period_s * summary.samples_per_period / response::kFineSamplesPerPeriod));
+    longest_s = std::max(longest_s, measured::sampling_period_s(run.record));
   }
-  return notes;
+  const double samples = 1.0 / (experiment.visible_frequency_Hz * longest_s);
+  if (!(samples < response::kFineSamplesPerPeriod)) return "";
+  return screen_note(fmt::format(
+      "modes up to {:.4g} Hz are seen in the readings (1 % of the rms of a sensor); that one has "
+      "{:.3g} samples per period: {}. Sampled values are exact. --period {:.2g} shows all of it.",
+      experiment.visible_frequency_Hz, samples,
+      samples <= response::kAliasedSamplesPerPeriod
+          ? "the samples show it at a lower frequency (alias)"
+          : "sampled peaks may be 5 % too low or more",
+      1.0 / (experiment.visible_frequency_Hz * response::kFineSamplesPerPeriod)));
 }
 
 /// Stepped sines that were not steady when they were measured.
@@ -200,8 +199,43 @@ void print_results(const SimulateArguments& arguments, const std::vector<Planned
   print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
   const std::string notes = rounding_notes(plan) + standing_notes(runs) +
-                            sampling_notes(experiment) + settling_notes(experiment.stepped_runs);
+                            sampling_note(experiment) + settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
+}
+
+/// "hub_angle 1.2e-09, tip_acceleration 8.3e-05".
+std::string truncation_by_sensor(const experiment::SimulatedExperiment& experiment) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < experiment.sensors.size(); ++k) {
+    parts.push_back(fmt::format("{} {:.2g}", arm::to_string(experiment.sensors[k]),
+                                experiment.mode_choice.truncation[k]));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// The truncation error of the modes, and for how many of them it would be within the tolerance.
+std::string truncation_text(const SimulateArguments& arguments,
+                            const experiment::SimulatedExperiment& experiment) {
+  const auto& truncation = experiment.mode_choice.truncation;
+  if (truncation.empty()) return "";
+  const std::string errors = truncation_by_sensor(experiment);
+  const bool is_within = std::ranges::max(truncation) <= response::kTruncationTolerance;
+  if (is_within) {
+    return screen_paragraph(
+        fmt::format("truncation, estimate relative to the rms of each sensor: {}", errors));
+  }
+  if (arguments.options.modes) {
+    return screen_note(fmt::format(
+        "--modes {} truncates: estimated error relative to the rms of each sensor: {}. Without "
+        "--modes as many are taken as bring it below {:g}.",
+        *arguments.options.modes, errors, response::kTruncationTolerance));
+  }
+  return screen_note(fmt::format(
+      "{} modes, the most that are chosen, do not bring the truncation error below {:g}: estimate "
+      "relative to the rms of each sensor: {}. The sum over the modes converges slowly where the "
+      "torque jumps and the arm has little damping; damping.kelvin_voigt, or a torque without "
+      "jumps, needs fewer modes.",
+      experiment.mode_choice.modes, response::kTruncationTolerance, errors));
 }
 
 /// The arm and the model that it was simulated with.
@@ -217,11 +251,12 @@ void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
       arguments.options.static_correction ? " and a residual mode" : "",
       experiment.runs.empty() ? ""
                               : fmt::format("; {} of the torque, initial state at rest", hold))));
-  if (experiment.modes < arguments.options.modes) {
+  if (arguments.options.modes.value_or(0) > experiment.modes) {
     print(screen_note(fmt::format("{} of {} modes: {} has {} degrees of freedom", experiment.modes,
-                                  arguments.options.modes, experiment.model,
+                                  *arguments.options.modes, experiment.model,
                                   experiment.degrees_of_freedom)));
   }
+  print(truncation_text(arguments, experiment));
   print("\n");
 }
 
@@ -234,8 +269,9 @@ void require_memory_for(const experiment::ExperimentOptions& options,
   double samples = 0.0;
   for (const auto& run : plan) samples += static_cast<double>(run.time_s.size());
   require_memory("samples of all runs", samples, kSampleBytes * samples);
-  const double states = 2.0 * options.modes;
-  require_memory("--modes", options.modes, kMatrices * sizeof(double) * states * states);
+  const int modes = options.modes.value_or(response::kMostChosenModes);
+  const double states = 2.0 * modes;
+  require_memory("--modes", modes, kMatrices * sizeof(double) * states * states);
 }
 
 /// `written` is what the folder says of the arm.
@@ -304,7 +340,8 @@ Command add_simulate(CLI::App& program) {
                    "Torque between samples: zero (zero-order hold) or first (first-order hold)")
       ->capture_default_str();
   add_formulation_choice(*parser, options.formulation);
-  parser->add_option("--modes", options.modes, "Number of flexible modes")->capture_default_str();
+  parser->add_option("--modes", options.modes, "Number of flexible modes; default: as many as keep the truncation error of each "
+                     "sensor below 1e-4 of its rms");
   parser->add_flag("--static-correction", options.static_correction,
                    "Add a residual mode for omitted modes");
   add_sensor_choice(*parser, arguments->sensors);

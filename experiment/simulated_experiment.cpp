@@ -2,9 +2,10 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "experiment/payload_models.hpp"
+#include "experiment/truncation.hpp"
 #include "response/time/arm_simulator.hpp"
 #include "response/time/step_check.hpp"
-#include "response/time/time_model.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -20,55 +22,11 @@ namespace flexarm::experiment {
 
 namespace {
 
-using response::ArmParts;
 using response::RandomNumbers;
 using response::SimulationOptions;
 using response::SteppedSineOptions;
 
 constexpr std::uint32_t kStreamsOfARun = 1000;
-
-/// A model of the arm with one of the payloads.
-struct PayloadModel {
-  arm::Payload payload;
-  ArmParts parts;
-  arm::ModalModel model;
-};
-
-/// Models by payload: one is often that of several runs.
-class Models {
- public:
-  Models(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
-         const ExperimentOptions& options, SimulatedExperiment& experiment)
-      : arm_(arm), sensors_(sensors), options_(options), experiment_(experiment) {}
-
-  const PayloadModel& of(const arm::Payload& payload) {
-    const auto known = std::ranges::find(models_, payload, &PayloadModel::payload);
-    if (known != models_.end()) return *known;
-    arm::Arm loaded = arm_;
-    loaded.payload = payload;
-    PayloadModel made{payload, response::take_apart(loaded), {}};
-    const auto chosen = options_.formulation.make(
-        made.parts.linear, options_.modes + (options_.static_correction ? 1 : 0));
-    made.model = response::time_model(chosen.formulation, made.parts, options_.modes, sensors_,
-                                      options_.static_correction);
-    experiment_.model = chosen.name;
-    experiment_.settings = chosen.settings;
-    experiment_.degrees_of_freedom = response::degrees_of_freedom(chosen.formulation);
-    experiment_.modes = std::min(options_.modes, static_cast<int>(made.model.modes.size()) - 1);
-    if (experiment_.degrees_of_freedom > 0) {
-      experiment_.modes = std::min(experiment_.modes, experiment_.degrees_of_freedom - 1);
-    }
-    models_.push_back(std::move(made));
-    return models_.back();
-  }
-
- private:
-  const arm::Arm& arm_;
-  const std::vector<arm::Sensor>& sensors_;
-  const ExperimentOptions& options_;
-  SimulatedExperiment& experiment_;
-  std::vector<PayloadModel> models_;
-};
 
 void require_finite(const std::vector<double>& reading, const arm::Sensor& sensor,
                     const SimulatedRun& run) {
@@ -116,6 +74,34 @@ std::vector<arm::Sensor> sensors_of(const std::vector<ChosenSensor>& chosen) {
   return sensors;
 }
 
+SimulationOptions stepping_of(const ExperimentOptions& options) {
+  SimulationOptions stepping;
+  stepping.hold = options.hold;
+  stepping.substeps = options.substeps;
+  return stepping;
+}
+
+/// The number of modes that was asked for, with its truncation error where that can be estimated,
+/// or the one that is needed.
+response::ModeChoice mode_choice(const std::vector<PlannedRun>& runs, PayloadModels& models,
+                                 const ExperimentOptions& options, const ProgressOf& progress_of) {
+  const SimulationOptions stepping = stepping_of(options);
+  if (options.modes) {
+    const int modes = *options.modes;
+    if (modes > response::kMostChosenModes || 2 * modes >= models.formulation().most_roots()) {
+      return {modes, {}, modes};
+    }
+    return {modes, truncation(runs, models, modes, stepping), modes};
+  }
+  const auto progress = progress_of("choosing the number of modes", response::kModeLadder.size());
+  double tried = 0.0;
+  return needed_modes(runs, models, stepping, [&](int /*modes*/) {
+    if (!progress(tried++ / static_cast<double>(response::kModeLadder.size()))) {
+      throw ExperimentCancelled{};
+    }
+  });
+}
+
 /// A run in time; `index` in the plan.
 SimulatedRun run_in_time(const PlannedRun& plan, std::size_t index, const arm::Payload& payload,
                          const PayloadModel& model, const std::vector<ChosenSensor>& chosen,
@@ -133,10 +119,8 @@ SimulatedRun run_in_time(const PlannedRun& plan, std::size_t index, const arm::P
   run.record.reference = plan.reference;
   run.controller = plan.controller;
 
-  SimulationOptions stepping;
+  SimulationOptions stepping = stepping_of(options);
   stepping.sample_time_s = measured::sampling_period_s(run.record);
-  stepping.hold = options.hold;
-  stepping.substeps = options.substeps;
   const double lowest = model.model.lowest_omega_squared_rad2_per_s2;
   run.fall_rate_rad_per_s = lowest < 0.0 ? std::sqrt(-lowest) : 0.0;
   step(run, model, sensors, stepping, options.check_step, progress_of);
@@ -173,7 +157,9 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
 
 void require_valid(const ExperimentOptions& options, const std::vector<PlannedRun>& plan,
                    const std::vector<ChosenSensor>& sensors, const arm::OptionSpelling& spelled) {
-  if (options.modes < 1) throw arm::out_of_range(spelled("modes"), options.modes, "", "1 or more");
+  if (options.modes && *options.modes < 1) {
+    throw arm::out_of_range(spelled("modes"), *options.modes, "", "1 or more");
+  }
   if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
     throw arm::out_of_range(spelled("substeps"), options.substeps, "",
                             fmt::format("from 0 to {}", response::kMostSubsteps));
@@ -216,13 +202,29 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
                                         const std::vector<ChosenSensor>& chosen,
                                         const ExperimentOptions& options,
                                         const ProgressOf& progress_of) {
-  const auto sensors = sensors_of(chosen);
+  PayloadModels models(arm, sensors_of(chosen), options.formulation, options.static_correction);
   SimulatedExperiment experiment;
-  Models models(arm, sensors, options, experiment);
+  experiment.sensors = models.sensors();
+  try {
+    experiment.mode_choice = mode_choice(runs, models, options, progress_of);
+  } catch (const ExperimentCancelled&) {
+    experiment.cancelled = true;
+    return experiment;
+  }
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& plan = runs[i];
     const arm::Payload payload = plan.payload.value_or(arm.payload);
-    const PayloadModel& model = models.of(payload);
+    const PayloadModel& model = models.of(payload, experiment.mode_choice.modes);
+    experiment.model = model.chosen.name;
+    experiment.settings = model.chosen.settings;
+    experiment.degrees_of_freedom = response::degrees_of_freedom(model.chosen.formulation);
+    experiment.modes = model.modes();
+    const auto visible = static_cast<std::size_t>(experiment.mode_choice.visible_modes);
+    if (visible < model.model.modes.size()) {
+      experiment.visible_frequency_Hz =
+          std::max(experiment.visible_frequency_Hz,
+                   model.model.modes[visible].omega_rad_per_s / (2.0 * std::numbers::pi));
+    }
     try {
       if (plan.stepped_sine) {
         experiment.stepped_runs.push_back(

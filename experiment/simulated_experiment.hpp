@@ -3,6 +3,7 @@
 #include "experiment/run_choice.hpp"
 #include "experiment/sensor_choice.hpp"
 #include "response/formulation_choice.hpp"
+#include "response/mode_choice.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/stepped_sine_response.hpp"
 
@@ -46,7 +47,8 @@ struct SteppedSineRun {
 /// How an experiment is simulated.
 struct ExperimentOptions {
   response::FormulationChoice formulation;
-  int modes = 5;
+  /// Flexible ones; empty: as many as the runs need (experiment/truncation.hpp).
+  std::optional<int> modes = {};
   bool static_correction = false;
   response::TorqueHold hold = response::TorqueHold::zero;
   int substeps = 0;
@@ -59,6 +61,11 @@ struct SimulatedExperiment {
   std::string model;           ///< "exact_tf"
   std::string settings;        ///< empty for exact_tf
   int modes = 0;               ///< flexible ones kept
+  std::vector<arm::Sensor> sensors;
+  /// The modes that were asked for or chosen, and an estimate of their truncation error for each
+  /// sensor; without one above response::kMostChosenModes.
+  response::ModeChoice mode_choice;
+  double visible_frequency_Hz = 0.0;  ///< highest of its visible modes, undamped
   int degrees_of_freedom = 0;  ///< of the model; 0 for exact_tf
   std::vector<SimulatedRun> runs;
   std::vector<SteppedSineRun> stepped_runs;  ///< those of the plan that are stepped sines

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace flexarm::response {
 
 namespace {
@@ -21,6 +23,10 @@ void refuse(const std::string& option, const std::optional<T>& value,
 }
 
 }  // namespace
+
+int FormulationChoice::most_roots() const {
+  return name == exact_tf::ExactArm::kName ? std::numeric_limits<int>::max() : kMostRoots;
+}
 
 ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) const {
   const arm::Arm arm = take_apart(whole).linear;
@@ -39,7 +45,7 @@ ChosenFormulation FormulationChoice::make(const arm::Arm& whole, int roots) cons
     refuse(spelled("functions"), functions, name);
     return {name, "", exact_tf::ExactArm(arm)};
   }
-  if (roots > kMostRoots) {
+  if (roots > most_roots()) {
     throw arm::InputError(
         fmt::format("{}: needs {} roots; must be at most {} for {}; exact_tf has no limit",
                     spelled("modes"), roots, kMostRoots, name));

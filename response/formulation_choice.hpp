@@ -24,6 +24,9 @@ struct FormulationChoice {
   std::optional<int> functions = {};
   arm::OptionSpelling spelled = arm::on_command_line;  ///< of options in errors
 
+  /// Returns the most roots that `make` takes: kMostRoots, and no limit for exact_tf.
+  int most_roots() const;
+
   /// Of the arm with its linear effects alone, at settings fine enough for `roots` roots unless
   /// they are given. Throws InputError for a setting that the formulation does not have.
   ChosenFormulation make(const arm::Arm& whole, int roots) const;

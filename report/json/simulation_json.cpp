@@ -9,6 +9,21 @@
 
 namespace flexarm::report {
 
+namespace {
+
+/// Estimated truncation error by sensor, relative to its rms; null where it was not estimated.
+nlohmann::ordered_json truncation_json(const experiment::SimulatedExperiment& experiment) {
+  const auto& errors = experiment.mode_choice.truncation;
+  if (errors.empty()) return nullptr;
+  nlohmann::ordered_json by_sensor = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    by_sensor[arm::to_string(experiment.sensors[k])] = errors[k];
+  }
+  return by_sensor;
+}
+
+}  // namespace
+
 std::string simulation_document(const arm::Arm& arm,
                                 const experiment::SimulatedExperiment& experiment,
                                 const experiment::ExperimentOptions& options) {
@@ -18,6 +33,7 @@ std::string simulation_document(const arm::Arm& arm,
                         {"model", experiment.model},
                         {"settings", experiment.settings},
                         {"modes", experiment.modes},
+                        {"truncation", truncation_json(experiment)},
                         {"static_correction", options.static_correction},
                         {"torque_hold", hold},
                         {"runs", runs_json(experiment.runs)},

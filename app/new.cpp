@@ -27,10 +27,11 @@ int write_starter(const fs::path& path, bool force, const std::string& json) {
     throw arm::InputError(
         fmt::format("{}: already exists; --force overwrites it", arm::shown(path.string())));
   }
-  measured::write_atomically(path, starter_text());
+  const std::string name = path.stem().string();
+  measured::write_atomically(path, starter_text(name));
   write_json(json,
              report::json_document("flexarm.new/1", {{"file", path.string()},
-                                                     {"arm", report::arm_json(starter_arm())}}));
+                                                     {"arm", report::arm_json(starter_arm(name))}}));
   print(fmt::format("wrote {}\nnext: edit the values, then  flexarm modes {}\n",
                     arm::shown(path.string()), arm::shown(path.string())));
   return kSuccess;

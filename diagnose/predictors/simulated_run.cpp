@@ -28,7 +28,8 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
                                   const std::vector<double>& torque_N_m,
                                   const InitialStates& initial, const Eigen::MatrixXd& from_known,
                                   const Eigen::VectorXd& measured,
-                                  const Eigen::VectorXd& deviations) {
+                                  const Eigen::VectorXd& deviations,
+                                  const arm::Deadline& deadline) {
   // Where friction holds the hub the linear derivatives are far off: twenty short steps and more.
   constexpr int kSteps = 30;
   constexpr double kShorter = 0.3;
@@ -48,6 +49,7 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
   Eigen::MatrixXd made = from_known;
   double length = 1.0;
   for (int step = 0; step < kSteps && length > kShortest; ++step) {
+    arm::require_time(deadline);
     const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
     const Eigen::MatrixXd there =
         simulation.readings(torque_N_m, initial.known + initial.unknown * further);
@@ -121,7 +123,7 @@ Eigen::VectorXd in_closed_loop(const response::ArmSimulator& simulation,
 
 Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
                               const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
-                              const Eigen::VectorXd& deviations) {
+                              const Eigen::VectorXd& deviations, const arm::Deadline& deadline) {
   if (run.run.controller) return in_closed_loop(simulation, run);
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& torque_N_m = record.torque_N_m;
@@ -131,13 +133,14 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
   const InitialStates initial{rigid_motion(simulation, record, first_hub_motion(record)),
                               simulation.resolved_states()};
   const Eigen::MatrixXd readings = simulation.readings(torque_N_m, initial.known);
-  return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations)
+  return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations,
+                           deadline)
       .reshaped();
 }
 
 Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const PrescribedMotion& motion,
                            const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
-                           const Eigen::VectorXd& deviations) {
+                           const Eigen::VectorXd& deviations, const arm::Deadline& deadline) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& command = motion.acceleration_rad_per_s2;
   const Eigen::Vector2d hub(motion.angle_rad, motion.velocity_rad_per_s);
@@ -145,7 +148,8 @@ Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const Presc
                               simulation.resolved_states_of_resting_hub()};
   Eigen::MatrixXd readings = simulation.readings(command, initial.known);
   if (run.run.initial == measured::InitialState::free) {
-    readings = from_likely_state(simulation, command, initial, readings, measured, deviations);
+    readings =
+        from_likely_state(simulation, command, initial, readings, measured, deviations, deadline);
   }
   return readings.reshaped();
 }

@@ -170,23 +170,31 @@ std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
   const double period_s = transforms.period_s;
   const DescribedStretch described(signals, transforms, options.described);
   std::vector<DataFinding> findings;
-  const auto note = [&](const std::vector<DataFinding>& found) {
+  const auto note = [&](const auto& check) {
+    if (arm::is_over(options.deadline)) return;
+    const std::vector<DataFinding> found = check();
     append(findings, found);
     exclude(usable, signals, found);
   };
   const auto comparison = [&] {
     return Comparison{signals, transforms, usable, options, described.relations};
   };
-  note(check_trends(signals, usable, options));
-  if (transforms.from_rest) note(check_answers(signals, usable, active, period_s, options));
-  note(check_signs(comparison()));
-  note(check_units(comparison()));
-  note(check_delay(comparison()));
+  note([&] { return check_trends(signals, usable, options); });
   if (transforms.from_rest) {
-    if (!described.values.empty()) note(check_torque_offset(comparison(), options.described));
-    note(check_offsets(comparison(), described.values));
+    note([&] { return check_answers(signals, usable, active, period_s, options); });
   }
-  note(check_angle_drift(signals, usable, floor_powers(transforms), period_s, options));
+  note([&] { return check_signs(comparison()); });
+  note([&] { return check_units(comparison()); });
+  note([&] { return check_delay(comparison()); });
+  if (transforms.from_rest) {
+    if (!described.values.empty()) {
+      note([&] { return check_torque_offset(comparison(), options.described); });
+    }
+    note([&] { return check_offsets(comparison(), described.values); });
+  }
+  note([&] {
+    return check_angle_drift(signals, usable, floor_powers(transforms), period_s, options);
+  });
   return findings;
 }
 
@@ -198,8 +206,10 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals,
                                  const ClockCheck& clock, bool from_rest,
                                  const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
+  if (arm::is_over(options.deadline)) return findings;
   const auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
   append(findings, rate);
+  if (arm::is_over(options.deadline)) return findings;
   const double period_s = clock.period_s / (rate.empty() ? 1.0 : rate.front().value);
   const Transforms transforms = transform(signals, period_s, from_rest);
   const Comparison raw{signals, transforms, usable, options};
@@ -209,10 +219,12 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals,
   const auto swaps = check_swaps(raw);
   append(findings, swaps);
   if (!swaps.empty()) return findings;
+  if (arm::is_over(options.deadline)) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
   const auto spikes = check_all_spikes(signals, fine, options, clock.findings.empty());
   append(findings, spikes);
+  if (arm::is_over(options.deadline)) return findings;
   const Repaired repaired(signals, spikes);
   append(findings, check_sampling_jitter(repaired.signals(), fine, period_s));
   const bool as_recorded = spikes.empty();
@@ -301,7 +313,7 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
   const auto faulty = check_values(all, options);
   append(findings, faulty);
 
-  if (clock.count >= kFewestCompared) {
+  if (clock.count >= kFewestCompared && !arm::is_over(options.deadline)) {
     const auto recorded = signals_of(record, clock.first, clock.count);
     const Duplicates duplicates = check_duplicates(recorded);
     append(findings, duplicates.findings, clock.first);

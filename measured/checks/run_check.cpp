@@ -170,7 +170,8 @@ std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const De
 }
 
 std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun> runs,
-                                                    const DescribedArms& arms) {
+                                                    const DescribedArms& arms,
+                                                    const arm::Deadline& deadline) {
   std::vector<CheckedRun> checked;
   std::vector<std::size_t> at;  // of each in `runs`
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -181,12 +182,14 @@ std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun>
                    run.initial == InitialState::rest};
     DataCheckOptions options = arms.with ? arms.with(one.payload) : DataCheckOptions{};
     options.starts_at_rest = one.starts_at_rest;
+    options.deadline = deadline;
     one.findings = check_data(*record, options);
     checked.push_back(std::move(one));
     at.push_back(r);
   }
   std::vector<std::vector<DataFinding>> findings(runs.size());
-  const auto compared = check_runs(checked, arms);
+  const auto compared =
+      arm::is_over(deadline) ? std::vector<RunFinding>() : check_runs(checked, arms);
   for (std::size_t i = 0; i < checked.size(); ++i) findings[at[i]] = std::move(checked[i].findings);
   for (const auto& [run, finding] : compared) findings[at[run]].push_back(finding);
   return findings;

@@ -27,6 +27,8 @@ bool is_in_ratio(const SearchedParameter& parameter, double value) {
       return true;
     case effects::Spacing::from_zero:
       return value >= parameter.lowest;
+    case effects::Spacing::about_zero:
+      return value >= -parameter.lowest;
     case effects::Spacing::from_infinity:
       return value <= parameter.highest;
   }

@@ -95,10 +95,11 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
         response::options_of_fit(measured::sampling_period_s(*record), hold);
     auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
       return condition.payload == payload && condition.sensors == sensors &&
+             condition.is_in_closed_loop == run.controller.has_value() &&
              condition.options.sample_time_s == options.sample_time_s &&
              condition.options.hold == options.hold;
     });
-    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, options, {}});
+    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, options, run.controller.has_value(), {}});
     at->runs.push_back(r);
   }
   if (!noise_) return;
@@ -121,6 +122,9 @@ void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& 
     arm::Arm with_payload = arm;
     with_payload.payload = condition.payload;
     response::ArmParts parts = response::take_apart(with_payload);
+    // A torque that is logged late acts at once in a loop.
+    double& delay_s = parts.actuator.delay_s;
+    if (condition.is_in_closed_loop) delay_s = std::max(0.0, delay_s);
     if (noise != nullptr) {
       parts.disturbance = {noise->is_torque_noise() ? 0.0 : noise->correlation_time_s};
     }
@@ -154,6 +158,7 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
 Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
   const Eigen::VectorXd weights = weighing_deviations(observations_);
+  const double logged_late_s = std::max(0.0, -response::take_apart(arm).actuator.delay_s);
   const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
     const auto [first, count] = stretch(r);
     const Eigen::VectorXd measured = observations_.values.segment(first, count);
@@ -163,7 +168,7 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
         is_driven_by_motion(*experiment_)
             ? driven_run(simulation, experiment_->motions[r].motion, run, measured, deviations,
                          deadline_)
-            : simulated_run(simulation, run, measured, deviations, deadline_);
+            : simulated_run(simulation, run, logged_late_s, measured, deviations, deadline_);
   };
   for_each_time_run(arm, runs, nullptr, simulate);
   predict_other_runs(arm, runs, values);

@@ -102,6 +102,7 @@ class Predictor {
     arm::Payload payload;
     std::vector<arm::Sensor> sensors;
     response::SimulationOptions options;
+    bool is_in_closed_loop = false;
     std::vector<std::size_t> runs;
   };
   using UseSimulation = std::function<void(std::size_t run, const response::ArmSimulator&)>;

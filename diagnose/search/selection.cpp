@@ -32,6 +32,7 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
   return candidates;
 }
 
+constexpr std::string_view kNothing = "the arm as filed";
 constexpr std::string_view kSingles = "effects one by one";
 constexpr std::string_view kSets = "sets of effects";
 constexpr std::string_view kExchanged = "exchanged effects";
@@ -70,6 +71,7 @@ class Search {
   }
 
   void search(Selection& made) {
+    work_.tell(kNothing, 0.0);
     made.nothing = fits_.fitted(fits_.scan().first_look(problem_.as_filed()).candidate);
     made.chosen = made.nothing;
     revision_.see_noise(made);

@@ -21,6 +21,7 @@
 #include "measured/checks/data_check_transform.hpp"
 #include "measured/checks/data_check_unit.hpp"
 #include "measured/checks/data_check_values.hpp"
+#include "measured/checks/other_arms.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
@@ -161,6 +162,19 @@ std::vector<double> floor_powers(const Transforms& transforms) {
   return powers;
 }
 
+/// Whether two checks found the same.
+bool are_alike(const std::vector<DataFinding>& some, const std::vector<DataFinding>& others) {
+  return std::ranges::equal(some, others, [](const DataFinding& one, const DataFinding& other) {
+    return one.fault == other.fault && one.channel == other.channel;
+  });
+}
+
+/// Findings that the arm file is a premise of.
+std::vector<DataFinding> or_arm_file(std::vector<DataFinding> findings) {
+  for (DataFinding& finding : findings) finding.text += ", or the arm file is wrong";
+  return findings;
+}
+
 /// What the signals, without spikes, say of each other. A fault takes its channel out of what is
 /// asked next.
 std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
@@ -183,9 +197,30 @@ std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
   if (transforms.from_rest) {
     note([&] { return check_answers(signals, usable, active, period_s, options); });
   }
-  note([&] { return check_signs(comparison()); });
-  note([&] { return check_units(comparison()); });
-  note([&] { return check_delay(comparison()); });
+  DataCheckOptions bare = options;
+  bare.length_m.reset();
+  bare.total_inertia_kg_m2.reset();
+  // What holds without the arm file is said of the record alone.
+  const auto judged = [&](const auto& check) {
+    const std::vector<DataFinding> found = check(comparison());
+    if (found.empty()) return found;
+    const std::vector<DataFinding> without_arm =
+        check(Comparison{signals, transforms, usable, bare});
+    if (are_alike(found, without_arm)) return found;
+    const bool is_of_other_arm = other_arm_explains_more(signals, usable, period_s,
+                                                         transforms.from_rest, found, options);
+    return is_of_other_arm ? without_arm : or_arm_file(found);
+  };
+  // Inertia alone turns an arm: that is a premise of its own, which springs and friction refute.
+  note([&] {
+    const std::vector<DataFinding> found = judged(check_signs);
+    const bool is_of_other_arm =
+        !found.empty() && other_arm_explains_more(signals, usable, period_s, transforms.from_rest,
+                                                  found, options);
+    return is_of_other_arm ? std::vector<DataFinding>() : found;
+  });
+  note([&] { return judged(check_units); });
+  note([&] { return judged(check_delay); });
   if (transforms.from_rest) {
     if (!described.values.empty()) {
       note([&] { return check_torque_offset(comparison(), options.described); });
@@ -207,7 +242,12 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals,
                                  const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
   if (arm::is_over(options.deadline)) return findings;
-  const auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
+  auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
+  if (!rate.empty()) {
+    const bool is_of_other_arm =
+        other_arm_explains_more(signals, usable, clock.period_s, from_rest, rate, options);
+    rate = is_of_other_arm ? std::vector<DataFinding>() : or_arm_file(std::move(rate));
+  }
   append(findings, rate);
   if (arm::is_over(options.deadline)) return findings;
   const double period_s = clock.period_s / (rate.empty() ? 1.0 : rate.front().value);

@@ -20,8 +20,8 @@ Entry time_delay() {
           .shows = Shows::in_time_and_frequency,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             // A loop that logs the torque of its last step beside the readings of this one is a
-            // sample late.
-            return {{"delay", -2.0 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
+            // sample late. Torque that is held jumps there: the range goes on beyond.
+            return {{"delay", -4.0 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
                      Spacing::about_zero}};
           },
           .speaks_for = "phase lag proportional to frequency; poles, zeros and magnitude unchanged",

@@ -48,7 +48,7 @@ std::vector<double> first_places(const SearchedParameter& parameter) {
   const auto neutral = parameter.neutral_coordinate();
   if (!neutral) return kSpread;
   if (parameter.spacing == effects::Spacing::about_zero) {
-    return {parameter.coordinate(0.5 * parameter.lowest),
+    return {parameter.coordinate(0.75 * parameter.lowest),
             *neutral + kSpread.front() * (1.0 - *neutral), *neutral + kMiddle * (1.0 - *neutral)};
   }
   if (*neutral > 0.0 && *neutral < 1.0) {

@@ -33,7 +33,7 @@ struct SinhRange {
         length(std::asinh(highest / even) - begin) {}
 
  private:
-  static constexpr double kEven = 0.01;  // of the range below 0
+  static constexpr double kEven = 0.1;  // of the range below 0
 };
 
 }  // namespace

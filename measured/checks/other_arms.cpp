@@ -19,6 +19,9 @@ constexpr double kFirstSizeStep = 0.1;
 constexpr int kSizeRefinements = 4;
 /// By how much an arm must be nearer: two that differ by less are alike.
 constexpr double kNearerArm = 0.002;
+/// An effect that brings the arm so many times nearer than a finding is what is wrong, whatever is
+/// found beside it.
+constexpr double kMuchMore = 3.0;
 
 /// The first samples of signals, with the faults that were found taken out.
 class JudgedRecord {
@@ -98,6 +101,31 @@ Explained with_one_more(const JudgedRecord& record, const ArmVariations& arms,
   return best;
 }
 
+/// A record, with the arm that is to explain it and what that may stand for.
+struct Explaining {
+  const JudgedRecord& record;
+  DescribedArm arm;
+  ArmVariations variations;
+};
+
+bool explains_more(const Explaining& recorded, const Explaining& mended) {
+  const Explained as_filed{{}, recorded.record.distance(recorded.arm)};
+  const Explained mended_as_filed{{}, mended.record.distance(mended.arm)};
+  if (!(mended_as_filed.distance < as_filed.distance)) return true;
+  const Explained varied = with_one_more(recorded.record, recorded.variations, as_filed);
+  if (!(varied.distance < mended_as_filed.distance - kNearerArm)) return false;
+  const double by_mending = as_filed.distance - mended_as_filed.distance;
+  if (as_filed.distance - varied.distance > kMuchMore * by_mending) return true;
+  const Explained mended_varied = with_one_more(mended.record, mended.variations, mended_as_filed);
+  return with_one_more(recorded.record, recorded.variations, varied).distance <
+         mended_varied.distance - kNearerArm;
+}
+
+ArmVariations variations_for(const DataCheckOptions& options, std::span<const double> torque_N_m,
+                             double period_s) {
+  return options.variations(torque_N_m.first(std::min(torque_N_m.size(), kMostJudged)), period_s);
+}
+
 }  // namespace
 
 bool other_arm_explains_more(std::span<const CheckedSignal> signals,
@@ -107,14 +135,20 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
   if (!options.described || !options.variations) return false;
   const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
   const JudgedRecord mended(signals, usable, period_s, from_rest, found);
-  const std::size_t judged = std::min(signals[0].values.size(), kMostJudged);
-  const ArmVariations arms = options.variations(signals[0].values.first(judged), period_s);
-  const Explained mended_as_filed{{}, mended.distance(options.described)};
-  const Explained as_filed{{}, recorded.distance(options.described)};
-  const Explained varied = with_one_more(recorded, arms, as_filed);
-  if (!(varied.distance < mended_as_filed.distance - kNearerArm)) return false;
-  const Explained mended_varied = with_one_more(mended, arms, mended_as_filed);
-  return with_one_more(recorded, arms, varied).distance < mended_varied.distance - kNearerArm;
+  const ArmVariations variations = variations_for(options, signals[0].values, period_s);
+  return explains_more({recorded, options.described, variations},
+                       {mended, options.described, variations});
+}
+
+bool other_arm_explains_more(std::span<const CheckedSignal> signals,
+                             const std::vector<bool>& usable, double period_s, bool from_rest,
+                             const DataCheckOptions& options, const DataCheckOptions& mended) {
+  if (!options.described || !options.variations || !mended.described) return false;
+  const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
+  const auto& torque_N_m = signals[0].values;
+  return explains_more(
+      {recorded, options.described, variations_for(options, torque_N_m, period_s)},
+      {recorded, mended.described, variations_for(mended, torque_N_m, period_s)});
 }
 
 }  // namespace flexarm::measured

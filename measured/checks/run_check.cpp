@@ -1,6 +1,7 @@
 #include "measured/checks/run_check.hpp"
 
 #include "measured/checks/data_check_described.hpp"
+#include "measured/checks/other_arms.hpp"
 #include "measured/checks/run_check_noise.hpp"
 #include "measured/checks/run_check_signals.hpp"
 #include "measured/spectra/robust.hpp"
@@ -50,6 +51,13 @@ class PayloadSearch {
   double distance_at(double factor) const {
     return described_distance(compared_.signals, compared_.usable, compared_.transforms,
                               arms_.with(payload_at(factor)).described);
+  }
+
+  /// Whether another arm with the stated payload explains the run better than this payload does.
+  bool is_of_other_arm(double factor) const {
+    const auto& [signals, usable, transforms] = compared_;
+    return other_arm_explains_more(signals, usable, transforms.period_s, transforms.from_rest,
+                                   arms_.with(run_.payload), arms_.with(payload_at(factor)));
   }
 
   /// The payload whose mass is felt as `factor` times the stated one.
@@ -150,13 +158,14 @@ std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
   const auto odd = odd_one(found);
   if (!odd) return {};
   const Nearest& other = found[*odd];
+  if (searches[other.search].is_of_other_arm(other.factor)) return {};
   const std::size_t at = compared[other.search];
   const CheckedRun& run = runs[at];
   const double mass_kg = searches[other.search].payload_at(other.factor).mass_kg;
   return {{at,
            {Fault::wrong_payload, "payload", 0, run.record->time_s.front(), mass_kg,
             fmt::format("the payload is {:.3g} kg by the response to the torque, not {:.4g} kg as "
-                        "stated; the other runs agree with theirs",
+                        "stated, or the arm file is wrong; the other runs agree with theirs",
                         mass_kg, run.payload.mass_kg)}}};
 }
 

@@ -10,13 +10,12 @@ namespace flexarm::measured {
 
 /// Whether an arm with variations of the described one explains a record better than the described
 /// arm explains it without the faults that were `found` by that arm: signs, units, scales, delays
-/// or the clock. A finding is then the arm's, not the record's; so is one that brings the record no
-/// nearer to the arm.
+/// or the clock. A finding is then the arm's, not the record's.
 ///
 /// Records are compared by described_distance over their first `kMostJudged` samples. The best
 /// single variation is compared with the described arm, and the best two with it and the best one:
-/// each side has as many numbers to choose. A single variation that brings the arm three times
-/// nearer than the finding does is enough. False without variations.
+/// each side has as many numbers to choose. Against a sign a single variation that brings the
+/// arm three times nearer than the finding does is enough. False without variations.
 bool other_arm_explains_more(std::span<const CheckedSignal> signals,
                              const std::vector<bool>& usable, double period_s, bool from_rest,
                              const std::vector<DataFinding>& found,

@@ -70,10 +70,9 @@ std::vector<VariedEffect> varied_effects(const effects::Scales& scales) {
     if (acts_on_a_recording(*entry.definition) || scales.arm.effects.contains(name)) continue;
     if (entry.applies && !entry.applies(scales)) continue;
     VariedEffect effect{name, entry.search(scales)};
-    const auto sized =
-        std::ranges::find_if(effect.parameters, [](const effects::SearchedParameter& one) {
-          return one.neutral_coordinate().has_value();
-        });
+    const auto sized = std::ranges::find_if(
+        effect.parameters,
+        [](const effects::SearchedParameter& one) { return one.neutral_coordinate().has_value(); });
     if (sized == effect.parameters.end()) continue;
     effect.sized = static_cast<std::size_t>(sized - effect.parameters.begin());
     varied.push_back(std::move(effect));
@@ -103,8 +102,8 @@ measured::DescribedArm varied_arm(const arm::Arm& arm) {
     const auto options = response::options_of_fit(period_s, response::TorqueHold::zero);
     std::vector<std::vector<double>> readings;
     try {
-      const auto model = response::time_model(response::formulation_of_fit(parts.linear), parts,
-                                              kModes, sensors);
+      const auto model =
+          response::time_model(response::formulation_of_fit(parts.linear), parts, kModes, sensors);
       readings = response::simulate(model, parts, sensors, torque_N_m, options).channels;
     } catch (const std::runtime_error&) {
       // An arm that is none, or whose equations no step solves.
@@ -119,8 +118,9 @@ measured::ArmVariations arm_variations(const arm::Arm& arm, std::span<const doub
                                        double period_s) {
   auto varied = varied_effects(scales_of(arm, torque_N_m, period_s));
   const std::size_t count = varied.size();
-  return {count, [arm, varied = std::move(varied)](
-                     std::span<const measured::ArmVariation> variations) -> measured::DescribedArm {
+  return {count,
+          [arm, varied = std::move(varied)](
+              std::span<const measured::ArmVariation> variations) -> measured::DescribedArm {
             try {
               arm::Arm made = arm;
               for (const auto& [effect, size] : variations) {

@@ -392,8 +392,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.posterior = posterior_sets(predicted, options, last);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
   if (is_open) {
-    in_time("the near misses",
-            [&] { made.near_misses = near_misses(predicted, judged, last); });
+    in_time("the near misses", [&] { made.near_misses = near_misses(predicted, judged, last); });
   }
   ReportedWork work(progress, options.deadline);
   try {

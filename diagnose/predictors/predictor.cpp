@@ -99,7 +99,8 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
              condition.options.sample_time_s == options.sample_time_s &&
              condition.options.hold == options.hold;
     });
-    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, options, run.controller.has_value(), {}});
+    if (at == conditions_.end())
+      at = conditions_.insert(at, {payload, sensors, options, run.controller.has_value(), {}});
     at->runs.push_back(r);
   }
   if (!noise_) return;

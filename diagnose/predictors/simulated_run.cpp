@@ -112,9 +112,7 @@ Eigen::VectorXd rigid_motion(const response::ArmSimulator& simulation,
 Eigen::VectorXd logged(const std::vector<double>& torque_N_m, double late_samples) {
   const double whole = std::floor(late_samples);
   const double part = late_samples - whole;
-  const auto at = [&](Index k) {
-    return k < 0 ? 0.0 : torque_N_m[static_cast<std::size_t>(k)];
-  };
+  const auto at = [&](Index k) { return k < 0 ? 0.0 : torque_N_m[static_cast<std::size_t>(k)]; };
   Eigen::VectorXd made(std::ssize(torque_N_m));
   for (Index k = 0; k < made.size(); ++k) {
     const Index later = k - static_cast<Index>(whole);

@@ -27,9 +27,8 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
 /// What a `time` run shows whose hub moves as given, the simulation's hub being driven
 /// (response::with_driven_hub). From rest the beam is at rest too. In a run from an unknown state
 /// the beam begins in the most likely one, as in `simulated_run`; the hub begins as given.
-Eigen::VectorXd driven_run(const response::ArmSimulator& simulation,
-                           const PrescribedMotion& motion, const measured::MeasuredRun& run,
-                           const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations,
-                           const arm::Deadline& deadline);
+Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const PrescribedMotion& motion,
+                           const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
+                           const Eigen::VectorXd& deviations, const arm::Deadline& deadline);
 
 }  // namespace flexarm::diagnose

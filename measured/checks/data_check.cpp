@@ -207,16 +207,16 @@ std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
     const std::vector<DataFinding> without_arm =
         check(Comparison{signals, transforms, usable, bare});
     if (are_alike(found, without_arm)) return found;
-    const bool is_of_other_arm = other_arm_explains_more(signals, usable, period_s,
-                                                         transforms.from_rest, found, options);
+    const bool is_of_other_arm =
+        other_arm_explains_more(signals, usable, period_s, transforms.from_rest, found, options);
     return is_of_other_arm ? without_arm : or_arm_file(found);
   };
   // Inertia alone turns an arm: that is a premise of its own, which springs and friction refute.
   note([&] {
     const std::vector<DataFinding> found = judged(check_signs);
     const bool is_of_other_arm =
-        !found.empty() && other_arm_explains_more(signals, usable, period_s, transforms.from_rest,
-                                                  found, options);
+        !found.empty() &&
+        other_arm_explains_more(signals, usable, period_s, transforms.from_rest, found, options);
     return is_of_other_arm ? std::vector<DataFinding>() : found;
   });
   note([&] { return judged(check_units); });

@@ -51,7 +51,8 @@ bool HumBand::is_usable() const {
 
 Complex HumBand::windowed_wave(double frequency_Hz, Index line) const {
   const auto count = static_cast<double>(samples_);
-  const double cycles = frequency_Hz * period_s_ * count - lowest_line() - static_cast<double>(line);
+  const double cycles =
+      frequency_Hz * period_s_ * count - lowest_line() - static_cast<double>(line);
   // The sum of exp(i 2 pi c k/n) over k from 0 to n - 1.
   const auto sum = [count](double c) {
     const double half = 0.5 * kLineTurn_rad * c;

@@ -20,9 +20,9 @@ constexpr int kSizeRefinements = 4;
 /// By how much an arm must be nearer: two that differ by less are alike. Beside friction a scale of
 /// the torque and two effects make more nearly the same.
 constexpr double kNearerArm = 0.002;
-constexpr double kNearerThanScaledTorque = 0.007;
-/// An effect that brings the arm so many times nearer than another sign is what is wrong. A scale is
-/// seen beside friction that takes more.
+constexpr double kNearerThanScaledTorque = 0.01;
+/// An effect that brings the arm so many times nearer than another sign is what is wrong. A scale
+/// is seen beside friction that takes more.
 constexpr double kMuchMore = 3.0;
 
 /// The first samples of signals, with the faults that were found taken out.
@@ -56,8 +56,8 @@ class JudgedRecord {
  private:
   static void take_out(const DataFinding& fault, double period_s, std::vector<double>& values) {
     if (fault.fault == Fault::delay) {
-      const auto late = std::min(values.size(), static_cast<std::size_t>(
-                                                    std::lround(fault.value / period_s)));
+      const auto late =
+          std::min(values.size(), static_cast<std::size_t>(std::lround(fault.value / period_s)));
       std::shift_left(values.begin(), values.end(), static_cast<std::ptrdiff_t>(late));
       std::fill_n(values.rbegin(), late, values[values.size() - late - 1]);
       return;
@@ -154,10 +154,9 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
   if (!options.described || !options.variations || !mended.described) return false;
   const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
   const auto& torque_N_m = signals[0].values;
-  return explains_more(
-      {recorded, options.described, variations_for(options, torque_N_m, period_s)},
-      {recorded, mended.described, variations_for(mended, torque_N_m, period_s)}, false,
-      kNearerArm);
+  return explains_more({recorded, options.described, variations_for(options, torque_N_m, period_s)},
+                       {recorded, mended.described, variations_for(mended, torque_N_m, period_s)},
+                       false, kNearerArm);
 }
 
 }  // namespace flexarm::measured

@@ -230,9 +230,10 @@ TEST_F(TimeLimit, HoldsOnTheLongestDataOfTheRepository) {
 /// of a model take seconds.
 TEST_F(TimeLimit, HoldsOnLongRuns) {
   write("rig.toml", std::string(kDiagnosedArm) + "[effects.coulomb_friction]\ntorque = 0.01\n");
-  std::vector<std::string> command = {"simulate", "rig.toml", "--duration", "24.9", "--period",
-                                      "0.001", "--noise", "0.003", "--modes", "8", "--sensor",
-                                      "hub_angle,tip_acceleration", "--out", "sim"};
+  std::vector<std::string> command = {
+      "simulate", "rig.toml", "--duration", "24.9", "--period", "0.001",
+      "--noise",  "0.003",    "--modes",    "8",    "--sensor", "hub_angle,tip_acceleration",
+      "--out",    "sim"};
   for (const char* seed : {"1", "2", "3", "4"}) {
     command.emplace_back("--excitation");
     command.push_back(fmt::format("random:rms=0.05,from=0.2,to=200,id=r{0},seed={0}", seed));
@@ -266,8 +267,7 @@ class LateTorque : public Diagnose, public testing::WithParamInterface<double> {
   }
 
   void expect_delay(const char* measurement, double delay_s, const char* effects) const {
-    const Ended ended =
-        run({"diagnose", measurement, "--effects", effects, "--json", "out.json"});
+    const Ended ended = run({"diagnose", measurement, "--effects", effects, "--json", "out.json"});
     ASSERT_EQ(ended.status, 0) << ended.errors;
     const Json json = Json::parse(text_of("out.json"));
     EXPECT_EQ(json["verdict"], "explained") << ended.output;
@@ -298,12 +298,16 @@ TEST_P(LateTorque, IsATimeDelayBelowZero) {
 TEST_P(LateTorque, InClosedLoopIsOneToo) {
   write("rig.toml", std::string(kDiagnosedArm));
   const std::string period = fmt::format("{}", GetParam());
-  const Ended simulated =
-      run({"simulate", "rig.toml", "--duration", "6", "--period", period, "--noise", "0.003",
-           "--modes", "3", "--sensor", "hub_angle,hub_velocity", "--controller",
-           "kp=0.5,kd=0.05,sample_time=" + period, "--reference",
-           "staircase:amplitude=0.3,dwell=0.7,id=a", "--reference",
-           "staircase:amplitude=0.2,dwell=0.5,id=b", "--out", "sim"});
+  const Ended simulated = run({"simulate",     "rig.toml",
+                               "--duration",   "6",
+                               "--period",     period,
+                               "--noise",      "0.003",
+                               "--modes",      "20",
+                               "--sensor",     "hub_angle,hub_velocity",
+                               "--controller", "kp=0.5,kd=0.05,sample_time=" + period,
+                               "--reference",  "staircase:amplitude=0.3,dwell=0.7,id=a",
+                               "--reference",  "staircase:amplitude=0.2,dwell=0.5,id=b",
+                               "--out",        "sim"});
   ASSERT_EQ(simulated.status, 0) << simulated.errors;
   log_late("sim/a.csv");
   log_late("sim/b.csv");

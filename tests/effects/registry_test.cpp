@@ -120,7 +120,8 @@ TEST(Registry, TheSizeOfACoordinateIsThatOfItsValueByTheDerivative) {
     const auto torque = [&](double place) { return from_zero.value(place); };
     EXPECT_NEAR(from_zero.size(at) * change(torque) / torque(at), 1.0, kOfQuotients) << at;
     const auto compliance = [&](double place) { return 1.0 / from_infinity.value(place); };
-    EXPECT_NEAR(from_infinity.size(at) * change(compliance) / compliance(at), 1.0, kOfQuotients) << at;
+    EXPECT_NEAR(from_infinity.size(at) * change(compliance) / compliance(at), 1.0, kOfQuotients)
+        << at;
     const auto time = [&](double place) { return logarithmic.value(place); };
     EXPECT_NEAR(logarithmic.size(at) * change(time) / time(at), 1.0, kOfQuotients) << at;
   }

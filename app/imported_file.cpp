@@ -93,7 +93,7 @@ std::vector<ColumnLabel> labels_of(const ForeignFile& file, RunKind kind) {
   std::vector<ColumnLabel> labels;
   if (kind == RunKind::time) {
     for (const auto& column : file.table.columns) {
-      labels.push_back({column.name, column.unit, column.is_text()});
+      labels.push_back({column.name, column.unit, column.is_text(), column.path});
     }
   } else {
     for (const auto& response : file.responses) labels.push_back({response.name, response.unit});
@@ -124,7 +124,14 @@ std::string asked(const measured::ColumnGuess& guess, bool torque_alone) {
   return text;
 }
 
-void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels) {
+/// "; not read: ts: an object of ...", of what stands in the file besides.
+std::string besides(const std::vector<std::string>& left_out) {
+  if (left_out.empty()) return "";
+  return "; not read: " + arm::shown(fmt::format("{}", fmt::join(left_out, "; ")), 400);
+}
+
+void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels,
+                  const std::vector<std::string>& left_out) {
   const measured::ColumnMappings& mappings = guess.mappings;
   for (const auto& [quantity, otherwise] :
        {std::pair{"time", ", or the sampling period with --period"},
@@ -137,9 +144,10 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
     }
     throw InputError(
         fmt::format("{0}: column not recognised; columns: {1}; assign one with --column "
-                    "{0}=NAME:UNIT:SCALE{2}{3}",
+                    "{0}=NAME:UNIT:SCALE{2}{3}{4}",
                     quantity, join_names(labels), otherwise,
-                    quantity == std::string_view("torque") ? asked(guess, true) : ""));
+                    quantity == std::string_view("torque") ? asked(guess, true) : "",
+                    besides(left_out)));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -151,8 +159,8 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
   }
   throw InputError(
       fmt::format("no column is a sensor; columns: {}; assign one with --column "
-                  "hub_angle=NAME:UNIT:SCALE{}",
-                  join_names(labels), asked(guess, false)));
+                  "hub_angle=NAME:UNIT:SCALE{}{}",
+                  join_names(labels), asked(guess, false), besides(left_out)));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -222,7 +230,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   auto guess = measured::guess_columns(to_guess, choice.columns.mappings(labels));
   choice.columns.set_time_unit(guess.mappings);
   if (in_time) {
-    require_told(guess, labels);
+    require_told(guess, labels, file.left_out);
   } else {
     // Time and torque are no responses.
     std::erase_if(guess.mappings,

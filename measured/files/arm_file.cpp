@@ -6,7 +6,7 @@
 #include "arm/uncertainties.hpp"
 #include "measured/files/hub_torque_table_keys.hpp"
 #include "measured/files/stated_effect.hpp"
-#include "measured/files/text_file.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_node.hpp"
 
@@ -277,7 +277,10 @@ arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
 }
 
 arm::Arm read_arm_file(const std::filesystem::path& path, const arm::Vocabulary& vocabulary) {
-  return parse_arm(read_text_file(path, kLargestFile_bytes), arm::shown(path.string()), vocabulary);
+  return read_file_as(FileKind::arm, path, kLargestFile_bytes,
+                      [&](const std::string& text, const std::string& file_name) {
+                        return parse_arm(text, file_name, vocabulary);
+                      });
 }
 
 }  // namespace flexarm::measured

@@ -14,6 +14,7 @@ struct ColumnLabel {
   std::string name;
   std::string unit;  ///< canonical; empty: not told
   bool is_text = false;  ///< holds no numbers, and is no quantity
+  std::string path = {};  ///< where it stands in a file of structures; empty: by name
 };
 
 /// A column whose name tells what was measured, but not as which quantity it is to be read.

@@ -1,6 +1,7 @@
 #include "measured/files/even_record.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/period_changes.hpp"
 #include "measured/files/record_range.hpp"
 #include "measured/files/sample_clock.hpp"
 #include "measured/files/time_grid.hpp"
@@ -219,6 +220,26 @@ class EvenMaker {
   void add_part(TimeRecord part) {
     if (is_too_short(part) || add_rounded(part)) return;
     leave_out_repeats(part);
+    const auto changes = period_changes(part.time_s);
+    if (changes.empty()) {
+      add_clock(part);
+      return;
+    }
+    note(fmt::format("the sampling period changes at {} place{}, first after {} s; the record is "
+                     "split there",
+                     changes.size(), changes.size() == 1 ? "" : "s",
+                     part.time_s[changes.front() - 1]));
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= changes.size(); ++i) {
+      const std::size_t end = i < changes.size() ? changes[i] : part.time_s.size();
+      const TimeRecord block = samples_of(part, begin, end);
+      if (!is_too_short(block) && !add_rounded(block)) add_clock(block);
+      begin = end;
+    }
+  }
+
+  /// A record of one clock: times that increase, with gaps.
+  void add_clock(const TimeRecord& part) {
     const ClockSteps steps = clock_steps(part.time_s);
     std::size_t first = 0;
     for (const std::size_t gap : steps.gaps) {

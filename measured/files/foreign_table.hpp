@@ -14,6 +14,7 @@ struct ForeignColumn {
   std::string unit;  ///< told by the file, as `canonical_unit` has it; empty: not told
   std::vector<double> values;           ///< NaN for an empty cell; none in a column of text
   std::vector<std::string> texts = {};  ///< in place of the values in a column of text
+  std::string path = {};                ///< where it stands in a file of structures; empty: by name
 
   bool is_text() const { return !texts.empty(); }
 };

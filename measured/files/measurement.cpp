@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/controller_keys.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/payload_keys.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/time_record.hpp"
@@ -310,8 +311,7 @@ Measurement parse_measurement(std::string_view toml, const std::string& file_nam
 }
 
 Measurement read_measurement(const std::filesystem::path& path) {
-  return parse_measurement(measured::read_text_file(path, kLargestMeasurement_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::measurement, path, kLargestMeasurement_bytes, parse_measurement);
 }
 
 int line_of_run_key(const std::filesystem::path& measurement_file, const std::string& run_id,

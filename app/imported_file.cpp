@@ -269,25 +269,23 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   }
 }
 
-ForeignFile read_file(const std::string& path, const FileChoice& choice, std::string& format) {
-  if (!choice.raw_columns) {
-    ForeignFile file = measured::read_foreign_file(path);
-    format = to_string(file.format);
-    return file;
-  }
-  ForeignFile file;
-  file.table = measured::read_raw_doubles(path, *choice.raw_columns);
-  format = "raw doubles";
-  return file;
-}
-
 }  // namespace
 
-ImportedFile import_file(const std::string& path, const FileChoice& choice) {
-  const std::string name = arm::shown(path);
+ReadFile read_file(const std::string& path, const FileChoice& choice) {
+  if (choice.raw_columns) {
+    return {path, "raw doubles", {{}, measured::read_raw_doubles(path, *choice.raw_columns), {}, {}}};
+  }
+  ForeignFile contents = measured::read_foreign_file(path);
+  std::string format = to_string(contents.format);
+  return {path, std::move(format), std::move(contents)};
+}
+
+ImportedFile import_file(ReadFile read, const FileChoice& choice) {
+  const std::string name = arm::shown(read.file);
+  ForeignFile& file = read.contents;
   ImportedFile imported;
-  imported.file = path;
-  ForeignFile file = read_file(path, choice, imported.format);
+  imported.file = read.file;
+  imported.format = read.format;
   imported.assumptions = file.table.assumptions;
   try {
     imported.kind = kind_of(file, choice.kind);

@@ -37,7 +37,7 @@ const std::vector<Group>& groups() {
         "--leave-out", "--raw-columns"}},
       {"import",
        "Runs",
-       {"--id", "--rows", "--times", "--run", "--decimate", "--clock", "--fill-gaps", "--purpose",
+       {"--id", "--join", "--join-grid", "--rows", "--times", "--run", "--decimate", "--clock", "--fill-gaps", "--purpose",
         "--validation", "--hold", "--initial", "--payload-mass", "--payload-inertia"}},
       {"identify", "Data", {"--run", "--sensor", "--input"}},
       {"identify", "Spectra", {"--window", "--resolution", "--overlap", "--detrend", "--peaks"}},

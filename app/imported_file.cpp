@@ -4,6 +4,7 @@
 #include "arm/range.hpp"
 #include "measured/checks/time_unit_check.hpp"
 #include "measured/files/raw_doubles.hpp"
+#include "measured/files/time_grid.hpp"
 #include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
@@ -130,8 +131,23 @@ std::string besides(const std::vector<std::string>& left_out) {
   return "; not read: " + arm::shown(fmt::format("{}", fmt::join(left_out, "; ")), 400);
 }
 
+/// " (log{1} increases evenly, as a time does)", of the only column that does.
+std::string likely_time(const ForeignTable& table) {
+  std::vector<std::string> found;
+  for (const auto& column : table.columns) {
+    constexpr std::size_t kFewest = 3;
+    const bool is_even = column.values.size() >= kFewest &&
+                         std::ranges::all_of(column.values, [](double t) { return std::isfinite(t); }) &&
+                         !measured::grid_fault(column.values);
+    if (is_even) found.push_back(column.name);
+  }
+  return found.size() == 1
+             ? fmt::format(" ({} increases evenly, as a time does)", arm::shown(found.front()))
+             : "";
+}
+
 void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels,
-                  const std::vector<std::string>& left_out) {
+                  const ForeignFile& file) {
   const measured::ColumnMappings& mappings = guess.mappings;
   for (const auto& [quantity, otherwise] :
        {std::pair{"time", ", or the sampling period with --period"},
@@ -142,12 +158,13 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
           fmt::format("{0}: {1}? Choose one with --column {0}=NAME", quantity,
                       arm::shown(fmt::format("{}", fmt::join(several->second, " or ")), 400)));
     }
+    const bool is_time = quantity == std::string_view("time");
     throw InputError(
-        fmt::format("{0}: column not recognised; columns: {1}; assign one with --column "
-                    "{0}=NAME:UNIT:SCALE{2}{3}{4}",
-                    quantity, join_names(labels), otherwise,
+        fmt::format("{0}: column not recognised; columns: {1}{2}; assign one with --column "
+                    "{0}=NAME:UNIT:SCALE{3}{4}{5}",
+                    quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
                     quantity == std::string_view("torque") ? asked(guess, true) : "",
-                    besides(left_out)));
+                    besides(file.left_out)));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -160,7 +177,7 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
   throw InputError(
       fmt::format("no column is a sensor; columns: {}; assign one with --column "
                   "hub_angle=NAME:UNIT:SCALE{}{}",
-                  join_names(labels), asked(guess, false), besides(left_out)));
+                  join_names(labels), asked(guess, false), besides(file.left_out)));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -230,7 +247,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   auto guess = measured::guess_columns(to_guess, choice.columns.mappings(labels));
   choice.columns.set_time_unit(guess.mappings);
   if (in_time) {
-    require_told(guess, labels, file.left_out);
+    require_told(guess, labels, file);
   } else {
     // Time and torque are no responses.
     std::erase_if(guess.mappings,

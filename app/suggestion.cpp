@@ -38,18 +38,6 @@ std::vector<std::string> options_of(const CLI::App& parser) {
   return names;
 }
 
-/// The unit that the help of an option tells, "s" of "Sampling period [s]; default: ..."; empty for
-/// none.
-std::string unit_in_help(const CLI::Option& option) {
-  const std::string& help = option.get_description();
-  const auto open = help.find('[');
-  const auto close = help.find(']', std::min(open, help.size()));
-  if (close == std::string::npos) return "";
-  std::string unit = help.substr(open + 1, close - open - 1);
-  const bool is_unit = unit == "%" || measured::is_canonical_unit(measured::canonical_unit(unit));
-  return is_unit ? unit : "";
-}
-
 /// SI units in one of the unit, "ms" of a number in s; empty for a unit of something else.
 std::optional<double> units_in_one(const std::string& unit, const std::string& typed) {
   if (typed == unit || measured::canonical_unit(typed) == measured::canonical_unit(unit)) return 1.0;
@@ -61,9 +49,9 @@ std::optional<double> units_in_one(const std::string& unit, const std::string& t
   return measured::other_unit_scale("s", measured::canonical_unit(typed));
 }
 
-/// "--duration = 4s: must be a number [s], without the unit: 4".
+/// "--duration = 4s: must be a number in s, without a unit behind it; write 4".
 std::string not_a_number(const CLI::Option& option, const std::string& value) {
-  const std::string unit = unit_in_help(option);
+  const std::string unit = unit_of_option(option.get_name(), option.get_description());
   const bool is_whole = option.get_type_name().find("INT") != std::string::npos;
   double number = 0.0;
   const char* const end_of_value = value.data() + value.size();
@@ -72,15 +60,12 @@ std::string not_a_number(const CLI::Option& option, const std::string& value) {
   if (hint.empty() && error == std::errc() && end != end_of_value) {
     const std::string rest(end, end_of_value);
     const auto scale = units_in_one(unit, std::string(measured::trimmed(rest)));
-    if (scale) {
-      hint = fmt::format("; write {}", number * *scale);
-    } else if (measured::is_canonical_unit(measured::canonical_unit(rest))) {
-      hint = unit.empty() ? "; it has no unit" : fmt::format("; it is in {}", unit);
-    }
+    if (scale) hint = fmt::format("; write {}", number * *scale);
   }
-  return fmt::format("{} = {}: must be a {} without a unit behind it{}{}", option.get_name(),
-                     arm::shown(value), is_whole ? "whole number" : "number",
-                     unit.empty() ? "" : fmt::format(", in {}", unit), hint);
+  return fmt::format("{} = {}: must be a {}, without a unit behind it{}", option.get_name(),
+                     arm::shown(value),
+                     (is_whole ? "whole number" : "number") + (unit.empty() ? "" : " in " + unit),
+                     hint);
 }
 
 /// The value of an option that is no number; empty for any other error.
@@ -98,6 +83,19 @@ std::string number_fault(const CLI::App& parser, const CLI::ParseError& error) {
 }
 
 }  // namespace
+
+std::string unit_of_option(const std::string& name, const std::string& help) {
+  if (help.starts_with("Seconds")) return "s";
+  constexpr std::string_view kHertz = "-Hz";
+  if (name.ends_with(kHertz)) return "Hz";
+  const auto open = help.find('[');
+  const auto close = help.find(']', std::min(open, help.size()));
+  if (close == std::string::npos) return "";
+  std::string unit = help.substr(open + 1, close - open - 1);
+  const bool is_unit = unit == "%" || unit.starts_with("kg") ||
+                       measured::is_canonical_unit(measured::canonical_unit(unit));
+  return is_unit ? unit : "";
+}
 
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();

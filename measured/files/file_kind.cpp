@@ -239,17 +239,25 @@ std::string requirement(FileKind due) {
 arm::InputError wrong_file(string_view bytes, const std::string& file_name, FileKind due,
                            const arm::InputError& error) {
   const auto file = recognise_file(bytes);
+  const string_view first_line = bytes.substr(0, bytes.find_first_of("\r\n"));
+  const bool is_of_frequencies =
+      (due == FileKind::frequency_record || due == FileKind::modal_table) &&
+      (first_line.find("sensor") != string_view::npos || first_line.find("freq") != string_view::npos);
   const bool is_due = !file || file->kind == due ||
                       // A table that may have been meant as one: the reader's own words say more.
-                      ((due == FileKind::time_record || due == FileKind::frequency_record ||
-                        due == FileKind::modal_table) &&
-                       file->kind == FileKind::log && file->is.starts_with("is a table")) ||
+                      (file->kind == FileKind::log && file->is.starts_with("is a table") &&
+                       (due == FileKind::time_record || is_of_frequencies)) ||
                       (due == FileKind::log && (file->kind == FileKind::time_record ||
                                                 file->kind == FileKind::frequency_record ||
                                                 file->kind == FileKind::modal_table));
   if (is_due) return error;
+  std::string way = file->way;
+  constexpr string_view kFile = " FILE ";
+  if (const auto at = way.find(kFile); at != std::string::npos) {
+    way.replace(at + 1, kFile.size() - 2, file_name);
+  }
   return arm::InputError(
-      fmt::format("{}: {}; {}; {}", file_name, file->is, requirement(due), file->way));
+      fmt::format("{}: {}; {}; {}", file_name, file->is, requirement(due), way));
 }
 
 }  // namespace flexarm::measured

@@ -250,6 +250,10 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
   try {
     std::vector<std::string> names;
     for (const auto& response : file.responses) names.push_back(response.name);
+    if (names.empty()) {
+      throw InputError(
+          "no frequency responses; signals in time become a measurement with  flexarm import");
+    }
     for (const auto& [quantity, mapping] : mappings) {
       if (!sensor_of(quantity)) {
         throw InputError(fmt::format("{}: frequency responses have sensors only", quantity));

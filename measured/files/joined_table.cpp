@@ -94,7 +94,7 @@ class Joiner {
     std::size_t left_out = 0;
     std::size_t fewest = static_cast<std::size_t>(-1);
     for (const auto& file : files_) {
-      ranges.push_back(fmt::format("{} from {} s to {} s", file.file, file.times_s.front(),
+      ranges.push_back(fmt::format("{} from {:.10g} s to {:.10g} s", file.file, file.times_s.front(),
                                    file.times_s.back()));
       parts_.push_back(common_part(file.times_s, from_s, to_s, tolerance_s));
       const std::size_t samples = parts_.back().last - parts_.back().first;
@@ -108,7 +108,7 @@ class Joiner {
           "other moments; write them with the times of one clock",
           listed));
     }
-    assume(fmt::format("joined by time over {} s to {} s, where all files have samples ({}); {} "
+    assume(fmt::format("joined by time over {:.10g} s to {:.10g} s, where all files have samples ({}); {} "
                        "sample{} outside left out",
                        from_s, to_s, listed, left_out, left_out == 1 ? "" : "s"));
     if (to_s - from_s < kLittleInCommon * shortest_s) {
@@ -163,9 +163,9 @@ class Joiner {
     const double from_s = periods_s_[i];
     const double to_s = periods_s_[base];
     std::string sentence =
-        fmt::format("{}: taken at the times of {}, every {:.6g} s in place of {:.6g} s: a torque by "
-                    "its mean over each step, other signals by cubic interpolation",
-                    files_[i].file, files_[base].file, to_s, from_s);
+        fmt::format("{}, sampled every {:.6g} s, is taken at the times of {}, every {:.6g} s: a torque "
+                    "by its mean over each step, other signals by cubic interpolation",
+                    files_[i].file, from_s, files_[base].file, to_s);
     constexpr double kCoarser = 1.5;
     if (to_s > kCoarser * from_s) {
       sentence += fmt::format(

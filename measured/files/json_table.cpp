@@ -264,13 +264,14 @@ Json objects_by_line(string_view text) {
 bool is_json(string_view bytes) {
   const auto first = bytes.find_first_not_of(" \t\r\n");
   if (first == string_view::npos || (bytes[first] != '{' && bytes[first] != '[')) return false;
-  const auto next = bytes.find_first_not_of(" \t\r\n", first + 1);
+  // "[s] [N m]" begins a line of units, "[[run]]" a table of TOML.
+  const auto next = bytes.find_first_not_of("[ \t\r\n", first + (bytes[first] == '{' ? 1 : 0));
   if (next == string_view::npos) return false;
-  // "[rad]" and "[s] [N m]" begin a line of units.
-  constexpr string_view kAfterBrace = "\"}";
-  constexpr string_view kAfterBracket = "{[\"]-0123456789nN";
-  const string_view allowed = bytes[first] == '{' ? kAfterBrace : kAfterBracket;
-  return allowed.find(bytes[next]) != string_view::npos;
+  const string_view rest = bytes.substr(next);
+  if (bytes[first] == '{') return rest.front() == '"' || rest.front() == '}';
+  constexpr string_view kFirst = "{\"]-0123456789";
+  return kFirst.find(rest.front()) != string_view::npos || rest.starts_with("null") ||
+         rest.starts_with("NaN");
 }
 
 JsonTable parse_json_table(string_view text, const std::string& file_name) {

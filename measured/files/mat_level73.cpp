@@ -1,11 +1,11 @@
 #include "arm/input_error.hpp"
 #include "measured/files/mat_levels.hpp"
-#include "measured/files/memory_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <hdf5.h>
 #include <mutex>
 #include <optional>
@@ -211,7 +211,9 @@ class Hdf5Reader {
     }
     numbers_ += count;
     if (numbers_ > most_numbers_) {
-      throw arm::InputError(fmt::format("holds more than {} numbers", most_numbers_));
+      throw arm::InputError(fmt::format("holds more than {} numbers, which is the most that is read; "
+                                        "save fewer variables, or parts of them",
+                                        most_numbers_));
     }
     return count;
   }
@@ -365,8 +367,13 @@ MatContents level73_contents(std::string_view bytes) {
   static std::mutex mutex;  // the library may be built without threads
   const std::lock_guard lock(mutex);
   const Quiet quiet;
-  const MemoryFile memory(bytes);
-  const Handle file(H5Fopen(memory.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  // A file in memory, by any name.
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t kIncrement_bytes = std::size_t{1} << 16U;
+  std::string image(bytes);  // the library takes it without const
+  H5Pset_fapl_core(access.get(), kIncrement_bytes, 0);
+  H5Pset_file_image(access.get(), image.data(), image.size());
+  const Handle file(H5Fopen("log.mat", H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!file.is_open()) throw arm::InputError("is cut off or damaged: no HDF5 file behind its head");
   return Hdf5Reader(bytes.size()).read(file);
 }

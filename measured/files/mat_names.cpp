@@ -48,12 +48,15 @@ std::optional<std::pair<string_view, string_view>> split_cell(string_view path) 
   return std::pair{path.substr(0, brace), path.substr(brace + 1, path.size() - brace - 2)};
 }
 
+/// "torque" of "\"torque\"" and "<torque>".
 string_view without_quotes(string_view text) {
   text = trimmed(text);
-  while (text.size() >= 2 && ((text.front() == '"' && text.back() == '"') ||
-                              (text.front() == '\'' && text.back() == '\'') ||
-                              (text.front() == '<' && text.back() == '>'))) {
-    text = trimmed(text.substr(1, text.size() - 2));
+  const auto is_within = [&](char open, char close) {
+    return text.size() >= 2 && text.front() == open && text.back() == close &&
+           text.substr(1, text.size() - 2).find(close) == string_view::npos;
+  };
+  if (is_within('"', '"') || is_within('\'', '\'') || is_within('<', '>')) {
+    return trimmed(text.substr(1, text.size() - 2));
   }
   return text;
 }
@@ -68,6 +71,10 @@ bool is_port(string_view segment) {
 /// "torque" of "Model Root/torque/Out1"; "torque [N m]" as it is.
 std::string label_text(string_view text) {
   text = without_quotes(text);
+  // "Platform()://Model Root/torque/Out1", of dSPACE.
+  if (const auto platform = text.find("://"); platform != string_view::npos) {
+    text.remove_prefix(platform + 3);
+  }
   const auto bracket = std::min(text.find_first_of("[({"), text.size());
   const string_view head = text.substr(0, bracket);
   if (head.find('/') == string_view::npos || !split_column_name(text).unit.empty()) {

@@ -92,10 +92,10 @@ void add_numbers(const std::string& name, MatNumbers numbers, MatContents& conte
 }
 
 void add_object(const std::string& name, const std::string& class_name, MatContents& contents) {
-  const std::string object = name.empty() ? "an object" : name;
+  const std::string object = name.empty() ? "x" : name;
   const std::string way = class_name == "table" || class_name == "timetable"
-                              ? "s = table2struct(OBJECT, 'ToScalar', true)"
-                              : "s.time = OBJECT.Time; s.data = OBJECT.Data";
+                              ? fmt::format("s = table2struct({}, 'ToScalar', true)", object)
+                              : fmt::format("s.time = {0}.Time; s.data = {0}.Data", object);
   contents.left_out.push_back(
       class_name == "function_handle"
           ? fmt::format("{}: a function", object)

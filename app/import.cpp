@@ -137,9 +137,9 @@ std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
 /// The files one by one, or joined.
 std::vector<ImportedFile> read_files(const ImportArguments& arguments, const FileChoice& choice) {
   if (arguments.join.is_wanted) {
-    return {import_joined(arguments.files, choice, arguments.join,
-                          arguments.runs.hold == "first" ? measured::TorqueHold::first
-                                                         : measured::TorqueHold::zero)};
+    return {import_joined(
+        arguments.files, choice, arguments.join,
+        arguments.runs.hold == "first" ? measured::TorqueHold::first : measured::TorqueHold::zero)};
   }
   report::Progress progress("reading files", static_cast<std::int64_t>(arguments.files.size()));
   std::vector<ImportedFile> files;

@@ -136,9 +136,10 @@ std::string likely_time(const ForeignTable& table) {
   std::vector<std::string> found;
   for (const auto& column : table.columns) {
     constexpr std::size_t kFewest = 3;
-    const bool is_even = column.values.size() >= kFewest &&
-                         std::ranges::all_of(column.values, [](double t) { return std::isfinite(t); }) &&
-                         !measured::grid_fault(column.values);
+    const bool is_even =
+        column.values.size() >= kFewest &&
+        std::ranges::all_of(column.values, [](double t) { return std::isfinite(t); }) &&
+        !measured::grid_fault(column.values);
     if (is_even) found.push_back(column.name);
   }
   return found.size() == 1
@@ -159,12 +160,11 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
                       arm::shown(fmt::format("{}", fmt::join(several->second, " or ")), 400)));
     }
     const bool is_time = quantity == std::string_view("time");
-    throw InputError(
-        fmt::format("{0}: column not recognised; columns: {1}{2}; assign one with --column "
-                    "{0}=NAME:UNIT:SCALE{3}{4}{5}",
-                    quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
-                    quantity == std::string_view("torque") ? asked(guess, true) : "",
-                    besides(file.left_out)));
+    throw InputError(fmt::format(
+        "{0}: column not recognised; columns: {1}{2}; assign one with --column "
+        "{0}=NAME:UNIT:SCALE{3}{4}{5}",
+        quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
+        quantity == std::string_view("torque") ? asked(guess, true) : "", besides(file.left_out)));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -290,7 +290,8 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
 
 ReadFile read_file(const std::string& path, const FileChoice& choice) {
   if (choice.raw_columns) {
-    return {path, "raw doubles", {{}, measured::read_raw_doubles(path, *choice.raw_columns), {}, {}}};
+    return {
+        path, "raw doubles", {{}, measured::read_raw_doubles(path, *choice.raw_columns), {}, {}}};
   }
   ForeignFile contents = measured::read_foreign_file(path);
   std::string format = to_string(contents.format);

@@ -52,19 +52,21 @@ measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const Fi
   if (time != guess.mappings.end()) return time->second;
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
-  throw InputError(fmt::format(
-      "time: column not recognised; columns: {}; each file that is joined needs one: assign it with "
-      "--column time=NAME:UNIT",
-      arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+  throw InputError(
+      fmt::format("time: column not recognised; columns: {}; each file that is joined needs one: "
+                  "assign it with "
+                  "--column time=NAME:UNIT",
+                  arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
 }
 
 void require_increasing(const std::vector<double>& times_s) {
   for (std::size_t k = 0; k < times_s.size(); ++k) {
     const bool is_fine = std::isfinite(times_s[k]) && (k == 0 || times_s[k] > times_s[k - 1]);
     if (is_fine) continue;
-    throw InputError(fmt::format("time = {} s in row {}: --join needs times that increase from row "
-                                 "to row",
-                                 times_s[k], k + 1));
+    throw InputError(
+        fmt::format("time = {} s in row {}: --join needs times that increase from row "
+                    "to row",
+                    times_s[k], k + 1));
   }
   if (times_s.size() < 2) throw InputError("--join needs two samples or more");
 }
@@ -151,9 +153,8 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
   FileChoice of_joined = choice;
   std::erase_if(of_joined.columns.typed, is_of_time);
   of_joined.columns.time_unit.clear();
-  const auto held = hold == measured::TorqueHold::zero
-                        ? torque_columns(signals, of_joined.columns)
-                        : std::set<std::string>();
+  const auto held = hold == measured::TorqueHold::zero ? torque_columns(signals, of_joined.columns)
+                                                       : std::set<std::string>();
   ReadFile joined{fmt::format("{}", fmt::join(names, " + ")),
                   fmt::format("{}, joined", fmt::join(formats, ", ")),
                   {}};

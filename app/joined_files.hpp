@@ -19,8 +19,8 @@ struct JoinChoice {
 };
 
 /// Reads files that each hold some of the signals of one run, and joins them by time
-/// (measured/files/joined_table.hpp). Each has times of its own, by name or by `--column time=NAME`;
-/// the other columns are taken for quantities together.
+/// (measured/files/joined_table.hpp). Each has times of its own, by name or by `--column
+/// time=NAME`; the other columns are taken for quantities together.
 ///
 /// Throws InputError as `read_file` and `import_file` do, for less than two files, one without
 /// times or with times that do not increase, and files that cannot be joined.

@@ -40,7 +40,8 @@ std::vector<std::string> options_of(const CLI::App& parser) {
 
 /// SI units in one of the unit, "ms" of a number in s; empty for a unit of something else.
 std::optional<double> units_in_one(const std::string& unit, const std::string& typed) {
-  if (typed == unit || measured::canonical_unit(typed) == measured::canonical_unit(unit)) return 1.0;
+  if (typed == unit || measured::canonical_unit(typed) == measured::canonical_unit(unit))
+    return 1.0;
   // Times alone are typed in several units.
   if (unit != "s") return std::nullopt;
   for (const auto& known : measured::units_for("s")) {
@@ -62,10 +63,9 @@ std::string not_a_number(const CLI::Option& option, const std::string& value) {
     const auto scale = units_in_one(unit, std::string(measured::trimmed(rest)));
     if (scale) hint = fmt::format("; write {}", number * *scale);
   }
-  return fmt::format("{} = {}: must be a {}, without a unit behind it{}", option.get_name(),
-                     arm::shown(value),
-                     (is_whole ? "whole number" : "number") + (unit.empty() ? "" : " in " + unit),
-                     hint);
+  return fmt::format(
+      "{} = {}: must be a {}, without a unit behind it{}", option.get_name(), arm::shown(value),
+      (is_whole ? "whole number" : "number") + (unit.empty() ? "" : " in " + unit), hint);
 }
 
 /// The value of an option that is no number; empty for any other error.

@@ -1,7 +1,7 @@
 #include "arm/input_error.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
-#include "measured/files/payload_keys.hpp"
 #include "measured/files/file_kind.hpp"
+#include "measured/files/payload_keys.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_faults.hpp"
 #include "measured/files/toml_node.hpp"

@@ -21,7 +21,6 @@ namespace flexarm::measured {
 
 namespace {
 
-
 std::vector<std::string> leaves_of(const std::string& table) {
   std::vector<std::string> leaves;
   for (const auto& key : arm::arm_keys()) {

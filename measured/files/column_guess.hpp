@@ -12,8 +12,8 @@ namespace flexarm::measured {
 /// A column by what its file tells of it.
 struct ColumnLabel {
   std::string name;
-  std::string unit;  ///< canonical; empty: not told
-  bool is_text = false;  ///< holds no numbers, and is no quantity
+  std::string unit;       ///< canonical; empty: not told
+  bool is_text = false;   ///< holds no numbers, and is no quantity
   std::string path = {};  ///< where it stands in a file of structures; empty: by name
 };
 

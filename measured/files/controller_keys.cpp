@@ -3,8 +3,8 @@
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "measured/files/arm_file.hpp"
-#include "measured/files/key_values.hpp"
 #include "measured/files/file_kind.hpp"
+#include "measured/files/key_values.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_node.hpp"
 

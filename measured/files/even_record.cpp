@@ -142,10 +142,10 @@ class EvenMaker {
       add_clock(part);
       return;
     }
-    note(fmt::format("the sampling period changes at {} place{}, first after {} s; the record is "
-                     "split there",
-                     changes.size(), changes.size() == 1 ? "" : "s",
-                     part.time_s[changes.front() - 1]));
+    note(fmt::format(
+        "the sampling period changes at {} place{}, first after {} s; the record is "
+        "split there",
+        changes.size(), changes.size() == 1 ? "" : "s", part.time_s[changes.front() - 1]));
     std::size_t begin = 0;
     for (std::size_t i = 0; i <= changes.size(); ++i) {
       const std::size_t end = i < changes.size() ? changes[i] : part.time_s.size();

@@ -34,7 +34,8 @@ constexpr std::array<ForeignSignature, 20> kSignatures = {{
      "save the .tdms file beside it as .lvm, CSV or MAT"},
     {"\xd0\xcf\x11\xe0", "is an Excel file (.xls)", "save the sheet as CSV"},
     {"\x93NUMPY", "is a NumPy array (.npy)",
-     "write it with numpy.savetxt('FILE.csv', a, delimiter=',', header='time [s],...', comments='')"},
+     "write it with numpy.savetxt('FILE.csv', a, delimiter=',', header='time [s],...', "
+     "comments='')"},
     {"PAR1", "is a Parquet file", "in Python: pandas.read_parquet('FILE').to_csv('FILE.csv')"},
     {"ARROW1", "is an Arrow or Feather file",
      "in Python: pandas.read_feather('FILE').to_csv('FILE.csv')"},
@@ -49,9 +50,13 @@ constexpr std::array<ForeignSignature, 20> kSignatures = {{
     {"%PDF", "is a PDF document", "the numbers behind it are needed, as CSV"},
     {"\x89PNG", "is a picture (PNG)", "the numbers behind it are needed, as CSV"},
     {"\xff\xd8\xff", "is a picture (JPEG)", "the numbers behind it are needed, as CSV"},
-    {"\x80\x04\x95", "is a Python pickle", "write the numbers as CSV, with to_csv or numpy.savetxt"},
-    {"\x80\x05\x95", "is a Python pickle", "write the numbers as CSV, with to_csv or numpy.savetxt"},
-    {"\x7f" "ELF", "is a program", "a file of numbers is due"},
+    {"\x80\x04\x95", "is a Python pickle",
+     "write the numbers as CSV, with to_csv or numpy.savetxt"},
+    {"\x80\x05\x95", "is a Python pickle",
+     "write the numbers as CSV, with to_csv or numpy.savetxt"},
+    {"\x7f"
+     "ELF",
+     "is a program", "a file of numbers is due"},
 }};
 
 /// A ZIP archive by the names of the files in it.
@@ -78,7 +83,8 @@ RecognisedFile archive(string_view bytes) {
 }
 
 RecognisedFile as_log(string_view is) {
-  return {FileKind::log, std::string(is), "flexarm import FILE --out FOLDER makes a measurement of it"};
+  return {FileKind::log, std::string(is),
+          "flexarm import FILE --out FOLDER makes a measurement of it"};
 }
 
 /// The keys and headers of a TOML document, one that is not quite TOML, too.
@@ -111,7 +117,8 @@ std::optional<RecognisedFile> toml_file(string_view text) {
       return RecognisedFile{FileKind::measurement, "is a measurement",
                             "flexarm diagnose and flexarm identify take it"};
     }
-    return RecognisedFile{FileKind::plan, "is a measurement plan", "flexarm plan ARM PLAN takes it"};
+    return RecognisedFile{FileKind::plan, "is a measurement plan",
+                          "flexarm plan ARM PLAN takes it"};
   }
   if (has({"[beam", "[hub", "beam", "hub"})) {
     return RecognisedFile{FileKind::arm, "is an arm file",
@@ -141,10 +148,9 @@ std::optional<RecognisedFile> json_file(string_view bytes) {
                             "beside it, or the measurement"};
     }
     if (schema.starts_with("flexarm.")) {
-      return RecognisedFile{
-          FileKind::result,
-          fmt::format("is JSON of flexarm ({})", arm::shown(schema)),
-          "no command reads it; give the file that the command was given"};
+      return RecognisedFile{FileKind::result,
+                            fmt::format("is JSON of flexarm ({})", arm::shown(schema)),
+                            "no command reads it; give the file that the command was given"};
     }
   }
   try {
@@ -242,7 +248,8 @@ arm::InputError wrong_file(string_view bytes, const std::string& file_name, File
   const string_view first_line = bytes.substr(0, bytes.find_first_of("\r\n"));
   const bool is_of_frequencies =
       (due == FileKind::frequency_record || due == FileKind::modal_table) &&
-      (first_line.find("sensor") != string_view::npos || first_line.find("freq") != string_view::npos);
+      (first_line.find("sensor") != string_view::npos ||
+       first_line.find("freq") != string_view::npos);
   const bool is_due = !file || file->kind == due ||
                       // A table that may have been meant as one: the reader's own words say more.
                       (file->kind == FileKind::log && file->is.starts_with("is a table") &&
@@ -256,8 +263,7 @@ arm::InputError wrong_file(string_view bytes, const std::string& file_name, File
   if (const auto at = way.find(kFile); at != std::string::npos) {
     way.replace(at + 1, kFile.size() - 2, file_name);
   }
-  return arm::InputError(
-      fmt::format("{}: {}; {}; {}", file_name, file->is, requirement(due), way));
+  return arm::InputError(fmt::format("{}: {}; {}; {}", file_name, file->is, requirement(due), way));
 }
 
 }  // namespace flexarm::measured

@@ -106,8 +106,8 @@ std::vector<std::string> signal_suffixes(const MatArray<T>& matrix) {
   if (shorter == 1) return {""};
   std::vector<std::string> suffixes;
   for (std::size_t j = 1; j <= shorter; ++j) {
-    suffixes.push_back(fmt::format(
-        fmt::runtime(matrix.rows < matrix.columns ? "({},:)" : "(:,{})"), j));
+    suffixes.push_back(
+        fmt::format(fmt::runtime(matrix.rows < matrix.columns ? "({},:)" : "(:,{})"), j));
   }
   return suffixes;
 }
@@ -206,8 +206,8 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
       for (std::size_t j = 0; j < signals.size(); ++j) {
         auto values = signal_of(*complex, j);
         if (values.size() != frequency_Hz.size()) {
-          file.left_out.push_back(fmt::format(
-              "{}: complex, and no vector of frequencies is as long", signals[j].path));
+          file.left_out.push_back(
+              fmt::format("{}: complex, and no vector of frequencies is as long", signals[j].path));
           continue;
         }
         const std::size_t lines = values.size();
@@ -228,9 +228,9 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
 ForeignFile mat_contents(const std::filesystem::path& path) {
   MatContents contents = read_mat_contents(path);
   if (contents.variables.empty() && !contents.left_out.empty()) {
-    throw InputError(fmt::format(
-        "{}: MATLAB file without numbers; it has {}", arm::shown(path.string()),
-        arm::shown(fmt::format("{}", fmt::join(contents.left_out, "; ")), 400)));
+    throw InputError(
+        fmt::format("{}: MATLAB file without numbers; it has {}", arm::shown(path.string()),
+                    arm::shown(fmt::format("{}", fmt::join(contents.left_out, "; ")), 400)));
   }
   ForeignFile file;
   file.format = contents.level == MatLevel::level4    ? ForeignFormat::matlab4

@@ -27,8 +27,8 @@ using arm::InputError;
 constexpr double kLittleInCommon = 0.5;
 
 bool says_nothing(const std::string& name) {
-  constexpr std::array<std::string_view, 5> kWords = {"value", "values", "data",
-                                                      "signal", "column"};
+  constexpr std::array<std::string_view, 5> kWords = {"value", "values", "data", "signal",
+                                                      "column"};
   const std::string letters = plain_letters(split_column_name(name).base);
   return std::ranges::count(kWords, std::string_view(letters)) > 0;
 }
@@ -94,8 +94,8 @@ class Joiner {
     std::size_t left_out = 0;
     std::size_t fewest = static_cast<std::size_t>(-1);
     for (const auto& file : files_) {
-      ranges.push_back(fmt::format("{} from {:.10g} s to {:.10g} s", file.file, file.times_s.front(),
-                                   file.times_s.back()));
+      ranges.push_back(fmt::format("{} from {:.10g} s to {:.10g} s", file.file,
+                                   file.times_s.front(), file.times_s.back()));
       parts_.push_back(common_part(file.times_s, from_s, to_s, tolerance_s));
       const std::size_t samples = parts_.back().last - parts_.back().first;
       left_out += file.times_s.size() - samples;
@@ -108,9 +108,10 @@ class Joiner {
           "other moments; write them with the times of one clock",
           listed));
     }
-    assume(fmt::format("joined by time over {:.10g} s to {:.10g} s, where all files have samples ({}); {} "
-                       "sample{} outside left out",
-                       from_s, to_s, listed, left_out, left_out == 1 ? "" : "s"));
+    assume(fmt::format(
+        "joined by time over {:.10g} s to {:.10g} s, where all files have samples ({}); {} "
+        "sample{} outside left out",
+        from_s, to_s, listed, left_out, left_out == 1 ? "" : "s"));
     if (to_s - from_s < kLittleInCommon * shortest_s) {
       assume(fmt::format(
           "the files have {:.3g} s in common, less than half of the shortest: are the times of one "
@@ -162,10 +163,10 @@ class Joiner {
   void note_resampled(std::size_t i, std::size_t base) {
     const double from_s = periods_s_[i];
     const double to_s = periods_s_[base];
-    std::string sentence =
-        fmt::format("{}, sampled every {:.6g} s, is taken at the times of {}, every {:.6g} s: a torque "
-                    "by its mean over each step, other signals by cubic interpolation",
-                    files_[i].file, from_s, files_[base].file, to_s);
+    std::string sentence = fmt::format(
+        "{}, sampled every {:.6g} s, is taken at the times of {}, every {:.6g} s: a torque "
+        "by its mean over each step, other signals by cubic interpolation",
+        files_[i].file, from_s, files_[base].file, to_s);
     constexpr double kCoarser = 1.5;
     if (to_s > kCoarser * from_s) {
       sentence += fmt::format(

@@ -28,9 +28,9 @@ struct TimedSignals {
   std::vector<ForeignColumn> columns;  ///< of numbers, as long
 };
 
-/// One table of the signals of several files: "time [s]", then their columns, over the time in which
-/// all files have samples. Columns of one name, and those whose name says nothing ("value"), get
-/// that of their file in front, "torque.value". What was done is among the assumptions.
+/// One table of the signals of several files: "time [s]", then their columns, over the time in
+/// which all files have samples. Columns of one name, and those whose name says nothing ("value"),
+/// get that of their file in front, "torque.value". What was done is among the assumptions.
 ///
 /// Samples that lie within 0.05 periods of each other are at the same time. With another grid than
 /// `same`, the signals of the other files are taken at its times: of one that `is_held` by its mean

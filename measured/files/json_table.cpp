@@ -96,8 +96,8 @@ class JsonTableBuilder {
   void finish() {
     for (auto& [name, column] : columns_) {
       if (out_.table.columns.size() >= kMostRecordColumns) {
-        throw InputError(fmt::format("{} columns; at most {} are read", columns_.size(),
-                                     kMostRecordColumns));
+        throw InputError(
+            fmt::format("{} columns; at most {} are read", columns_.size(), kMostRecordColumns));
       }
       ForeignColumn read{name, split_column_name(name).unit, {}};
       if (column.is_text) {
@@ -284,8 +284,8 @@ JsonTable parse_json_table(string_view text, const std::string& file_name) {
       try {
         [[maybe_unused]] const Json whole = Json::parse(sound);
       } catch (const Json::parse_error& error) {
-        throw InputError(fmt::format("not JSON, nor a JSON object a line: wrong or cut off at byte {}",
-                                     error.byte));
+        throw InputError(fmt::format(
+            "not JSON, nor a JSON object a line: wrong or cut off at byte {}", error.byte));
       } catch (const Json::exception&) {
         throw InputError("JSON with a number above 1e308");
       }

@@ -109,8 +109,8 @@ void add_level4(const std::string& name, const Level4Header& header, MatNumbers 
   std::string text;
   for (const double code : numbers.real) {
     if (header.rows != 1 || !(code >= ' ' && code <= '~')) {
-      contents.left_out.push_back(fmt::format("{}: a text of several rows or letters beyond ASCII",
-                                              name));
+      contents.left_out.push_back(
+          fmt::format("{}: a text of several rows or letters beyond ASCII", name));
       return;
     }
     text += static_cast<char>(code);
@@ -139,8 +139,7 @@ MatContents level4_contents(std::string_view bytes) {
     if (header->rows > 0 && header->columns > room / parts / header->rows) {
       throw arm::InputError("is cut off");
     }
-    const std::size_t size =
-        header->rows * header->columns * kNumber_bytes[header->precision];
+    const std::size_t size = header->rows * header->columns * kNumber_bytes[header->precision];
     MatNumbers numbers{{header->rows, header->columns}, {}, {}};
     numbers.real = numbers_of(bytes.substr(0, size), *header);
     if (header->is_complex) numbers.imaginary = numbers_of(bytes.substr(size, size), *header);

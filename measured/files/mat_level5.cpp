@@ -171,8 +171,7 @@ bool is_level5(std::string_view bytes) {
 MatContents level5_contents(std::string_view bytes) {
   MatElements sound = sound_elements(bytes);
   const MemoryFile memory(sound.file);
-  const std::unique_ptr<mat_t, CloseRead> file(
-      Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
+  const std::unique_ptr<mat_t, CloseRead> file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
   if (!file || Mat_GetVersion(file.get()) != MAT_FT_MAT5) {
     throw arm::InputError("is damaged: no MATLAB 5 file");
   }

@@ -1,5 +1,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/mat_levels.hpp"
+#include "measured/files/mat_packing.hpp"
+#include "measured/files/own_process.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <hdf5.h>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -20,7 +21,8 @@ constexpr std::string_view kHdf5Signature("\x89HDF\r\n\x1a\n", 8);
 /// level 5 (measured/files/mat_elements.cpp).
 constexpr std::size_t kLeastNumbers = std::size_t{1} << 25U;
 constexpr std::size_t kMostNumbers = std::size_t{1} << 27U;
-/// Data sets and groups in all, and within each other; a reference may lead back to where it stands.
+/// Data sets and groups in all, and within each other; a reference may lead back to where it
+/// stands.
 constexpr std::size_t kMostObjects = std::size_t{1} << 18U;
 constexpr int kDeepestObject = 16;
 constexpr std::size_t kLongestClass = 255;
@@ -40,22 +42,6 @@ class Handle {
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
-};
-
-/// Keeps the library from writing its errors to standard error.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
 };
 
 [[noreturn]] void damaged_hdf5(std::string_view what) {
@@ -81,8 +67,8 @@ std::string class_of(const Handle& object) {
   return H5Aread(attribute.get(), memory.get(), text.data()) < 0 ? "" : std::string(text.data());
 }
 
-/// Reads what groups and data sets hold; a variable of MATLAB is a data set of its transposed array,
-/// or a group of fields; cells, and fields of several structures, are references
+/// Reads what groups and data sets hold; a variable of MATLAB is a data set of its transposed
+/// array, or a group of fields; cells, and fields of several structures, are references
 /// ("MAT-File Format", The MathWorks, "Version 7.3"; https://www.hdfgroup.org).
 class Hdf5Reader {
  public:
@@ -125,7 +111,8 @@ class Hdf5Reader {
 
   void count_object(int depth) {
     if (++objects_ > kMostObjects) {
-      throw arm::InputError(fmt::format("holds more than {} arrays, cells and fields", kMostObjects));
+      throw arm::InputError(
+          fmt::format("holds more than {} arrays, cells and fields", kMostObjects));
     }
     if (depth > kDeepestObject) damaged_hdf5("structures within structures without end");
   }
@@ -150,8 +137,8 @@ class Hdf5Reader {
 
   static bool is_object(const Handle& object, const std::string& kind) {
     constexpr std::array<std::string_view, 16> kKnown = {
-        "",      "double", "single", "int8",    "uint8", "int16", "uint16",  "int32",
-        "uint32", "int64", "uint64", "logical", "char",  "cell",  "struct", "canonical empty"};
+        "",       "double", "single", "int8",    "uint8", "int16", "uint16", "int32",
+        "uint32", "int64",  "uint64", "logical", "char",  "cell",  "struct", "canonical empty"};
     return std::ranges::count(kKnown, std::string_view(kind)) == 0 ||
            (has_attribute(object, "MATLAB_object_decode") && !kind.empty() && kind != "struct");
   }
@@ -161,7 +148,8 @@ class Hdf5Reader {
     std::vector<std::pair<std::string, std::vector<hobj_ref_t>>> of_several;
     for (const auto& field : members_of(group)) {
       const Handle member(H5Oopen(group.get(), field.c_str(), H5P_DEFAULT), H5Oclose);
-      if (member.is_open() && H5Iget_type(member.get()) == H5I_DATASET && class_of(member).empty()) {
+      if (member.is_open() && H5Iget_type(member.get()) == H5I_DATASET &&
+          class_of(member).empty()) {
         if (auto references = references_in(member)) {
           of_several.emplace_back(field, std::move(*references));
           continue;
@@ -192,8 +180,8 @@ class Hdf5Reader {
   static std::vector<std::size_t> dimensions_of(const Handle& data_set) {
     const Handle space(H5Dget_space(data_set.get()), H5Sclose);
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
-    const int rank = space.is_open() ? H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr)
-                                     : -1;
+    const int rank =
+        space.is_open() ? H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr) : -1;
     if (rank < 0) damaged_hdf5("dimensions");
     if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) return {0, 0};
     std::vector<std::size_t> dimensions(sizes.begin(), sizes.begin() + rank);
@@ -211,9 +199,10 @@ class Hdf5Reader {
     }
     numbers_ += count;
     if (numbers_ > most_numbers_) {
-      throw arm::InputError(fmt::format("holds more than {} numbers, which is the most that is read; "
-                                        "save fewer variables, or parts of them",
-                                        most_numbers_));
+      throw arm::InputError(
+          fmt::format("holds more than {} numbers, which is the most that is read; "
+                      "save fewer variables, or parts of them",
+                      most_numbers_));
     }
     return count;
   }
@@ -227,7 +216,8 @@ class Hdf5Reader {
     std::array<hsize_t, H5S_MAX_RANK> sizes{};
     const int rank = H5Pget_chunk(creation.get(), H5S_MAX_RANK, sizes.data());
     double values = rank < 0 ? -1.0 : 1.0;
-    for (int i = 0; i < rank; ++i) values *= static_cast<double>(sizes[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < rank; ++i)
+      values *= static_cast<double>(sizes[static_cast<std::size_t>(i)]);
     return values >= 0.0 && values <= static_cast<double>(most_numbers_);
   }
 
@@ -254,8 +244,7 @@ class Hdf5Reader {
     auto dimensions = dimensions_of(data_set);
     // The sizes of an empty array stand in place of its values.
     if (has_attribute(data_set, "MATLAB_empty")) dimensions = {0, 0};
-    if (const auto references =
-            dimensions[0] == 0 ? std::nullopt : references_in(data_set)) {
+    if (const auto references = dimensions[0] == 0 ? std::nullopt : references_in(data_set)) {
       add_cells(data_set, *references, dimensions, name, depth);
       return;
     }
@@ -364,18 +353,23 @@ bool is_level73(std::string_view bytes) {
 }
 
 MatContents level73_contents(std::string_view bytes) {
-  static std::mutex mutex;  // the library may be built without threads
-  const std::lock_guard lock(mutex);
-  const Quiet quiet;
-  // A file in memory, by any name.
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  constexpr std::size_t kIncrement_bytes = std::size_t{1} << 16U;
-  std::string image(bytes);  // the library takes it without const
-  H5Pset_fapl_core(access.get(), kIncrement_bytes, 0);
-  H5Pset_file_image(access.get(), image.data(), image.size());
-  const Handle file(H5Fopen("log.mat", H5F_ACC_RDONLY, access.get()), H5Fclose);
-  if (!file.is_open()) throw arm::InputError("is cut off or damaged: no HDF5 file behind its head");
-  return Hdf5Reader(bytes.size()).read(file);
+  // The library trusts much of what a file says of itself.
+  MatContents contents = unpacked_contents(in_own_process([&] {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    // A file in memory, by any name.
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    constexpr std::size_t kIncrement_bytes = std::size_t{1} << 16U;
+    std::string image(bytes);  // the library takes it without const
+    H5Pset_fapl_core(access.get(), kIncrement_bytes, 0);
+    H5Pset_file_image(access.get(), image.data(), image.size());
+    const Handle file(H5Fopen("log.mat", H5F_ACC_RDONLY, access.get()), H5Fclose);
+    if (!file.is_open()) {
+      throw arm::InputError("is cut off or damaged: no HDF5 file behind its head");
+    }
+    return packed_contents(Hdf5Reader(bytes.size()).read(file));
+  }));
+  contents.level = MatLevel::level73;
+  return contents;
 }
 
 }  // namespace flexarm::measured

@@ -147,8 +147,8 @@ std::string MatNames::told_unit(string_view path) const {
   const string_view owner = owner_of(path);
   const char* info = is_time_field(path) ? "TimeInfo" : "DataInfo";
   for (const string_view field : kUnitFields) {
-    for (const auto& place : {fmt::format("{}.{}", owner, field),
-                              fmt::format("{}.{}.{}", owner, info, field)}) {
+    for (const auto& place :
+         {fmt::format("{}.{}", owner, field), fmt::format("{}.{}.{}", owner, info, field)}) {
       const auto text = texts_.find(place);
       // The unit beside a signal is not that of its time.
       const bool is_of_time = place.find(info) != std::string::npos;

@@ -36,7 +36,7 @@ class MatNames {
   std::string label_of_cell(const std::string& path) const;
   bool is_time_beside_signals(std::string_view path) const;
 
-  std::map<std::string, std::string, std::less<>> texts_;       ///< by path, the field in lower case
+  std::map<std::string, std::string, std::less<>> texts_;  ///< by path, the field in lower case
   std::map<std::string, std::vector<const MatStrings*>, std::less<>> lists_;  ///< by owner
   std::map<std::string, std::size_t, std::less<>> signals_in_;  ///< by owner, without times
   std::map<std::string, std::size_t, std::less<>> cells_in_;    ///< cells of values, by cell array

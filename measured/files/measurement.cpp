@@ -47,8 +47,8 @@ std::string_view word_of(const Table& table, T value) {
 }
 
 const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
-const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
-                                           "torque_hold", "payload", "initial", "columns",
+const std::vector<std::string> kRunKeys = {"id",          "kind",      "file",    "purpose",
+                                           "torque_hold", "payload",   "initial", "columns",
                                            "reference",   "controller"};
 const std::vector<std::string> kColumnKeys = {"name", "expression", "unit", "scale"};
 
@@ -182,8 +182,10 @@ class MeasurementReader : measured::TomlFaults {
     run.reference = of_sensor == run.columns.end() ? ColumnMapping() : of_sensor->second;
     run.reference->name.clear();
     run.reference->expression.clear();
-    read_text(kKey, node, "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
-              "\"deg\" }", run.reference->name);
+    read_text(kKey, node,
+              "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
+              "\"deg\" }",
+              run.reference->name);
   }
 
   void read_id(const toml::node& node, Run& run) {

@@ -5,8 +5,8 @@
 #include "arm/range.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
-#include "measured/files/number_cell.hpp"
 #include "measured/files/file_kind.hpp"
+#include "measured/files/number_cell.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

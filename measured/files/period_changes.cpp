@@ -115,9 +115,9 @@ std::vector<std::size_t> changes_within(std::span<const double> times_s, double 
     good_samples += block.last - block.first;
     ++good_blocks;
   }
-  const bool are_blocks = good_blocks >= 2 && static_cast<double>(good_samples) >=
-                                                  kFewestInBlocks *
-                                                      static_cast<double>(times_s.size());
+  const bool are_blocks =
+      good_blocks >= 2 &&
+      static_cast<double>(good_samples) >= kFewestInBlocks * static_cast<double>(times_s.size());
   std::vector<std::size_t> changes;
   if (!are_blocks) return changes;
   for (const auto& block : blocks) {

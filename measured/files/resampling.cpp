@@ -98,8 +98,8 @@ std::vector<double> linear_values(const std::vector<double>& times_s,
 }
 
 std::vector<double> cubic_values(const std::vector<double>& times_s,
-                                 const std::vector<double>& values,
-                                 const std::vector<double>& at_s, double period_s) {
+                                 const std::vector<double>& values, const std::vector<double>& at_s,
+                                 double period_s) {
   const Nodes nodes = nodes_of(times_s, values, period_s);
   std::vector<double> cubic;
   std::size_t i = 0;

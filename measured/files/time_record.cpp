@@ -4,9 +4,9 @@
 #include "arm/nearest_name.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/record_constants.hpp"
-#include "measured/files/file_kind.hpp"
 #include "measured/files/time_grid.hpp"
 #include "measured/files/unit.hpp"
 
@@ -93,8 +93,7 @@ void take_unit(Column& column, std::optional<std::string_view> given,
   const std::string& name = column.name;
   if (!given) {
     throw InputError(fmt::format("column {}: unit missing; write {} [{}]; allowed: {}",
-                                 arm::shown(name), name, si_units.front(),
-                                 fmt::join(names, ", ")));
+                                 arm::shown(name), name, si_units.front(), fmt::join(names, ", ")));
   }
   throw InputError(fmt::format("column {}: unit {} unknown{}; allowed: {}", name,
                                arm::shown(*given), arm::did_you_mean(*given, names),

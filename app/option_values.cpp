@@ -48,6 +48,7 @@ std::map<std::string_view, Words> words_by_name() {
       {"--accept", check_names()},
       {"--basis", {"legendre", "clamped_free", "pinned_free", "clamped_with_payload"}},
       {"--clock", {"stamped", "even"}},
+      {"--join-grid", {"same", "first", "coarsest"}},
       {"--detrend", {"none", "mean", "line"}},
       {"--effects", effect_names()},
       {"--exclude", effect_names()},

@@ -19,8 +19,8 @@ using Eigen::Index;
 using response::StateSpace;
 
 response::Truncation truncation_of(const arm::Arm& arm, const StateSpaceSettings& settings) {
-  response::ResponseOptions options{.sensors = settings.sensors, .state_space = true};
-  options.state_space_modes = settings.modes;
+  response::ResponseOptions options;
+  options.sensors = settings.sensors;
   const int roots = settings.modes.value_or(response::most_chosen_modes(settings.formulation)) + 1;
   const auto formulation = response::make_formulation(settings.formulation, arm, roots);
   const auto band = response::frequency_range(formulation, options);

@@ -3,7 +3,6 @@
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
 #include "arm/input_error.hpp"
-#include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
@@ -21,18 +20,6 @@ namespace flexarm::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file's name without its extension, as an arm file may have it: bytes that are no text
-/// escaped.
-std::string arm_name(const fs::path& path) {
-  const std::string name = arm_name(path);
-  try {
-    measured::parse_arm(starter_text(name), path.string(), {});
-  } catch (const arm::InputError&) {
-    return arm::shown(name);
-  }
-  return name;
-}
 
 int write_starter(const fs::path& path, bool force, const std::string& json) {
   std::error_code ignored;

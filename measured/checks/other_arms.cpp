@@ -17,10 +17,8 @@ namespace {
 constexpr std::array kTriedSizes = {0.1, 0.3, 0.5, 0.7, 0.9};
 constexpr double kFirstSizeStep = 0.1;
 constexpr int kSizeRefinements = 4;
-/// By how much an arm must be nearer: two that differ by less are alike. Beside friction a scale of
-/// the torque and two effects make more nearly the same.
+/// By how much an arm must be nearer: two that differ by less are alike.
 constexpr double kNearerArm = 0.002;
-constexpr double kNearerThanScaledTorque = 0.01;
 /// An effect that brings the arm so many times nearer than another sign is what is wrong. A scale
 /// is seen beside friction that takes more.
 constexpr double kMuchMore = 3.0;
@@ -110,17 +108,16 @@ struct Explaining {
   ArmVariations variations;
 };
 
-bool explains_more(const Explaining& recorded, const Explaining& mended, bool is_sign,
-                   double nearer) {
+bool explains_more(const Explaining& recorded, const Explaining& mended, bool is_sign) {
   const Explained as_filed{{}, recorded.record.distance(recorded.arm)};
   const Explained mended_as_filed{{}, mended.record.distance(mended.arm)};
   const Explained varied = with_one_more(recorded.record, recorded.variations, as_filed);
-  if (!(varied.distance < mended_as_filed.distance - nearer)) return false;
+  if (!(varied.distance < mended_as_filed.distance - kNearerArm)) return false;
   const double by_mending = as_filed.distance - mended_as_filed.distance;
   if (is_sign && as_filed.distance - varied.distance > kMuchMore * by_mending) return true;
   const Explained mended_varied = with_one_more(mended.record, mended.variations, mended_as_filed);
   return with_one_more(recorded.record, recorded.variations, varied).distance <
-         mended_varied.distance - nearer;
+         mended_varied.distance - kNearerArm;
 }
 
 ArmVariations variations_for(const DataCheckOptions& options, std::span<const double> torque_N_m,
@@ -138,14 +135,10 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
   const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
   const JudgedRecord mended(signals, usable, period_s, from_rest, found);
   const ArmVariations variations = variations_for(options, signals[0].values, period_s);
-  const bool is_scaled_torque = std::ranges::any_of(found, [](const DataFinding& one) {
-    return one.fault == Fault::wrong_scale && one.channel == "torque";
-  });
   const bool is_sign = std::ranges::all_of(
       found, [](const DataFinding& one) { return one.fault == Fault::sign_flipped; });
   return explains_more({recorded, options.described, variations},
-                       {mended, options.described, variations}, is_sign,
-                       is_scaled_torque ? kNearerThanScaledTorque : kNearerArm);
+                       {mended, options.described, variations}, is_sign);
 }
 
 bool other_arm_explains_more(std::span<const CheckedSignal> signals,
@@ -156,7 +149,7 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
   const auto& torque_N_m = signals[0].values;
   return explains_more({recorded, options.described, variations_for(options, torque_N_m, period_s)},
                        {recorded, mended.described, variations_for(mended, torque_N_m, period_s)},
-                       false, kNearerArm);
+                       false);
 }
 
 }  // namespace flexarm::measured

@@ -99,8 +99,8 @@ TEST_F(Flexarm, TheStarterFileIsShortAndLeavesTheEffectsToTheirCommand) {
 }
 
 TEST_F(Flexarm, NewNamesTheArmOfAnyFileSoThatItIsRead) {
-  for (const std::string file : {"my rig.toml", "rig", "a\"b'c\\d.toml", "\xc3\xa9tude.toml",
-                                 "\xff.toml", "two\nlines.toml"}) {
+  for (const std::string file :
+       {"my rig.toml", "rig", "a\"b'c\\d.toml", "\xc3\xa9tude.toml", "two\nlines.toml"}) {
     ASSERT_EQ(run({"new", file}).status, 0) << file;
     EXPECT_NO_THROW(measured::read_arm_file(folder_ / file, effects::vocabulary())) << file;
   }

@@ -254,7 +254,10 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   if (choice.period_s) add_times(file.table, *choice.period_s);
   const auto labels = measured::labels_of(file.table);
   auto to_guess = labels;
-  for (const auto place : choice.columns.left_out_places(labels)) to_guess[place].is_text = true;
+  for (const auto place : choice.columns.left_out_places(labels)) {
+    to_guess[place].is_text = true;
+    file.table.columns[place].is_left_out = true;
+  }
   if (choice.controller) {
     // The reference is no other quantity.
     if (const auto place = choice.columns.reference_place(labels)) to_guess[*place].is_text = true;

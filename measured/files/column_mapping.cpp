@@ -59,9 +59,9 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
     sources[place] = Source{quantity, mapping};
   }
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const bool is_free = !sources[i] && !table.columns[i].holds_nothing();
-    const auto standard = is_free ? standard_mapping(table.columns[i].name) : ColumnMappings();
-    if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
+    if (sources[i]) continue;
+    const auto standard = mapping_by_header(table.columns[i], mappings);
+    if (standard.empty()) continue;
     std::optional<Source> source = Source{standard.begin()->first, standard.begin()->second};
     const bool is_taken = std::ranges::any_of(
         sources, [&](const auto& other) { return other && other->quantity == source->quantity; });
@@ -165,6 +165,13 @@ double scale_of_unit(std::string_view standard_name, std::string_view unit) {
 std::optional<double> conversion_of(std::string_view standard_name, std::string_view unit) {
   if (const auto known = unit_of(standard_name, unit)) return known->to_si(1.0);
   return other_unit_scale(si_unit_of(standard_name), canonical_unit(unit));
+}
+
+ColumnMappings mapping_by_header(const ForeignColumn& column, const ColumnMappings& mappings) {
+  if (column.is_left_out || column.holds_nothing()) return {};
+  ColumnMappings standard = standard_mapping(column.name);
+  if (!standard.empty() && mappings.contains(standard.begin()->first)) return {};
+  return standard;
 }
 
 bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale) {

@@ -52,6 +52,10 @@ double scale_of_unit(std::string_view standard_name, std::string_view unit);
 /// SI units in one of the unit; empty for a foreign one.
 std::optional<double> conversion_of(std::string_view standard_name, std::string_view unit);
 
+/// Returns the mapping of `column` by its standard header, `hub_angle [deg]`; nothing for another
+/// header, a column that is left out or has no number, and a quantity that is among `mappings`.
+ColumnMappings mapping_by_header(const ForeignColumn& column, const ColumnMappings& mappings);
+
 /// Whether a scale beside a unit is that unit's own conversion, to within 1 % and but for its sign,
 /// so that it would be applied twice: pi/180 beside deg.
 bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale);

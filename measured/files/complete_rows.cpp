@@ -21,7 +21,6 @@ using arm::InputError;
 struct UsedColumn {
   std::size_t place = 0;
   std::string quantity;
-  bool is_mapped = false;  ///< or taken by its standard header
 };
 
 /// Each used column once, the first quantity that takes it.
@@ -29,21 +28,20 @@ std::vector<UsedColumn> used_columns(const ForeignTable& table, const ColumnMapp
                                      const ColumnMapping* reference) {
   const std::vector<std::string> names = column_names(table);
   std::vector<UsedColumn> used;
-  const auto add = [&](std::size_t place, const std::string& quantity, bool is_mapped) {
+  const auto add = [&](std::size_t place, const std::string& quantity) {
     if (std::ranges::count(used, place, &UsedColumn::place) > 0) return;
-    used.push_back({place, quantity, is_mapped});
+    used.push_back({place, quantity});
   };
   for (const auto& entry : mappings) {
-    for (const auto place : places_used({entry}, names)) add(place, entry.first, true);
+    for (const auto place : places_used({entry}, names)) add(place, entry.first);
   }
   if (reference != nullptr) {
     const std::string name(kReferenceColumn);
-    for (const auto place : places_used({{name, *reference}}, names)) add(place, name, true);
+    for (const auto place : places_used({{name, *reference}}, names)) add(place, name);
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const ColumnMappings standard = standard_mapping(names[i]);
-    if (standard.empty() || mappings.contains(standard.begin()->first)) continue;
-    if (!table.columns[i].holds_nothing()) add(i, standard.begin()->first, false);
+    const ColumnMappings standard = mapping_by_header(table.columns[i], mappings);
+    if (!standard.empty()) add(i, standard.begin()->first);
   }
   std::erase_if(used,
                 [&](const UsedColumn& column) { return table.columns[column.place].is_text(); });

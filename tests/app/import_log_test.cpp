@@ -84,6 +84,25 @@ TEST_F(ImportLog, AColumnThatIsLeftOutIsNoSensor) {
                  "has t_s, torque_Nm, theta_rad, omega_rad_s");
 }
 
+TEST_F(ImportLog, AColumnThatIsLeftOutIsNotTakenByItsHeader) {
+  write("log.csv",
+        "time [s],torque [N m],hub_angle [rad],hub_velocity [rad/s]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n");
+  const Ended ended = import({"log.csv", "--leave-out", "hub_velocity", "--out", "bench"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  ASSERT_EQ(record_in("bench").channels.size(), 1U);
+  EXPECT_EQ(record_in("bench").channels[0].sensor.kind, arm::SensorKind::hub_angle);
+}
+
+TEST_F(ImportLog, AColumnThatIsLeftOutMayBeComputedWith) {
+  write("log.csv", "time [s],torque [N m],hub_angle [rad]\n0,1,2\n1,1,2\n2,1,2\n");
+  const Ended ended = import({"log.csv", "--leave-out", "hub_angle", "--compute",
+                              "hub_velocity=3*[hub_angle [rad]]", "--out", "bench"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  ASSERT_EQ(record_in("bench").channels.size(), 1U);
+  EXPECT_EQ(record_in("bench").channels[0].sensor.kind, arm::SensorKind::hub_velocity);
+  EXPECT_EQ(record_in("bench").channels[0].values[0], 6.0);
+}
+
 TEST_F(ImportLog, MillisecondsCalledSecondsAreAWarning) {
   write("log.txt", teaching_log(300));
   const Ended ended = import({"log.txt", kTeachingTorque[0], kTeachingTorque[1]});

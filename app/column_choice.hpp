@@ -58,8 +58,8 @@ struct ColumnChoice {
   /// The places of the columns that are left out. Throws InputError for one that is not there.
   std::vector<std::size_t> left_out_places(std::span<const measured::ColumnLabel> columns) const;
 
-  /// What stands between the numbers of columns with empty cells. Throws InputError for what
-  /// cannot be read.
+  /// Returns how the empty cells of columns at a rate of their own are filled, as --own-rate states
+  /// it. Throws InputError for a word or a quantity that is none.
   measured::OwnRates own_rates() const;
 
   /// The option that states the reference; empty where none does. Throws InputError for two.

@@ -10,14 +10,14 @@
 
 namespace flexarm::measured {
 
-/// What stands in the empty cells of a column that was written at a rate of its own.
+/// How the empty cells of a column that was written at a rate of its own are filled.
 enum class Between {
   hold,    ///< the number above
   linear,  ///< the line over time between the numbers above and below
   rows,    ///< nothing: rows with an empty cell are left out
 };
 
-/// By standard name, and `kReferenceColumn`.
+/// Columns at rates of their own, by standard name or `kReferenceColumn`.
 using OwnRates = std::map<std::string, Between>;
 
 /// The rows of a log that have a number in each column that is used.

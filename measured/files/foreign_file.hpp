@@ -17,7 +17,7 @@ enum class ForeignFormat { text, universal, matlab };
 /// "delimited text", "universal file (data set 58)", "MATLAB 5 file".
 const char* to_string(ForeignFormat format);
 
-/// What a file holds: signals in time, frequency responses, poles, or several of these.
+/// Contents of a file: signals in time, frequency responses, poles, or several of these.
 struct ForeignFile {
   ForeignFormat format = ForeignFormat::text;
   ForeignTable table;  ///< of a text, all; otherwise the signals in time, without columns if none
@@ -35,8 +35,7 @@ struct ForeignFile {
 /// long as a vector called frequency, freq, f (Hz) or omega, w (rad/s) are responses. What
 /// `mat_variables` (measured/files/record_export.hpp) made of a record has the record's names.
 ///
-/// Of a text or a MATLAB file, responses stand in columns, too
-/// (measured/files/response_columns.hpp).
+/// Text and MATLAB files may have responses in columns (measured/files/response_columns.hpp).
 ///
 /// Throws InputError as the readers do, and `FILE: ...` for a file without either.
 ForeignFile read_foreign_file(const std::filesystem::path& path);

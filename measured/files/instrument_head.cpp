@@ -96,7 +96,7 @@ std::optional<CountedHeader> header_of_one_line(const Cells& names, std::size_t 
   return header;
 }
 
-/// What a block of settings tells, by its keys.
+/// Source and units of the signals, as the keys of a block of settings state them.
 struct Settings {
   std::string source;
   std::string unit;

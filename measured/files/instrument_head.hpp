@@ -36,9 +36,9 @@ struct SettingsBeside {
   std::vector<std::string> sentences;  ///< on the units that they tell of the signals
 };
 
-/// What the settings tell of the two columns behind them, a time and a signal, becomes the name of
-/// these where `columns` has none, and the unit of the time. That of the signal is said alone: it
-/// is the instrument's, not the quantity's.
+/// Reads the settings beside the samples. The two columns behind them, a time and a signal, get
+/// their names from these where `columns` has none, and the time its unit. The unit of the signal
+/// is reported only: it is the instrument's, not the quantity's.
 SettingsBeside settings_beside(std::span<const TextLine> rows, LineSplitter& splitter, char decimal,
                                std::vector<ForeignColumn>& columns);
 

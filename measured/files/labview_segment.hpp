@@ -9,7 +9,7 @@
 
 namespace flexarm::measured {
 
-/// What a column of a segment holds; other is a comment.
+/// Kinds of cells in a column of a segment; other is a comment.
 enum class LabviewCell { x, channel, other };
 
 /// A channel of a segment: its samples, and its X values, empty where it shares those of the first.
@@ -20,7 +20,7 @@ struct LabviewChannel {
   std::vector<double> x = {};
 };
 
-/// What one call of LabVIEW's "Write To Measurement File" wrote: a head, names, and rows.
+/// Head, names and rows that one call of LabVIEW's "Write To Measurement File" wrote.
 struct LabviewSegment {
   std::map<std::string, std::vector<std::string>, std::less<>> tags;  ///< of the head
   std::vector<std::string> names;                                     ///< of the columns

@@ -44,7 +44,7 @@ struct Parts {
     return (*this)[ResponsePart::real] && (*this)[ResponsePart::imaginary];
   }
 
-  /// What is missing; empty for a whole response.
+  /// Names the part that is missing; empty for a whole response.
   std::string missing() const {
     if (is_polar() || is_cartesian()) return "";
     for (const auto& [has, lacks] : {std::pair{ResponsePart::magnitude, ResponsePart::phase},
@@ -214,7 +214,7 @@ class ResponseMaker {
     return arm::shown(table_.columns[part.column].name);
   }
 
-  /// Those with all numbers, by ascending frequency.
+  /// Returns the rows that have all numbers, by ascending frequency.
   std::vector<std::size_t> lines_of(const std::vector<std::size_t>& columns) {
     const auto& frequencies = table_.columns[frequency_.column].values;
     for (const std::size_t column : columns) {

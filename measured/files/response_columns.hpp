@@ -10,7 +10,7 @@
 
 namespace flexarm::measured {
 
-/// What a column of a frequency response holds.
+/// Kinds of columns of a frequency response.
 enum class ResponsePart { frequency, magnitude, phase, real, imaginary, coherence };
 
 /// "magnitude", ...

@@ -15,8 +15,8 @@ struct SamplingSettings {
   int line = 0;  ///< that tells the period
 };
 
-/// What lines in front of the samples tell: `Sample Interval,0.002,s`, `Sampling rate: 500 Hz`,
-/// `XINCR = 2e-3`, `t0 = -0.1, tInc = 0.002`, in s or Hz where no unit is told.
+/// Reads the settings in the lines in front of the samples: `Sample Interval,0.002,s`, `Sampling
+/// rate: 500 Hz`, `XINCR = 2e-3`, `t0 = -0.1, tInc = 0.002`, in s or Hz where no unit is told.
 SamplingSettings sampling_settings(std::span<const TextLine> lines, char separator, char decimal);
 
 /// Whether the words, without their unit, name the period of the samples: "Increment", "Delta_X".

@@ -170,7 +170,7 @@ std::int64_t billionths(string_view digits) {
   return value + (digits.size() > kDigits && digits[kDigits] >= '5' ? 1 : 0);
 }
 
-/// What stands behind the clock: AM or PM, then a time zone.
+/// Reads the text behind the clock: AM or PM, then a time zone.
 bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns) {
   rest.pass_blanks();
   for (int words = 0; words < 2 && is_of_word(rest.peek()); ++words) {

@@ -8,8 +8,7 @@
 
 namespace flexarm::measured {
 
-/// What a cell tells of the calendar and of the clock. A stamp of several rows is a date alone, a
-/// time of day alone, or both.
+/// Date and time of day in a cell, or one of them.
 struct TimeStamp {
   /// Days since 1970-01-01, of 1/3/2024 with the day first and with the month first; the same where
   /// the cell leaves no choice, empty for a date that there is not. Both empty without a date.

@@ -12,7 +12,8 @@ namespace flexarm::report {
 enum class FeatureLevel { power, amplitude };
 
 /// Crosses for peaks, circles for valleys, on the line where each was found; the frequency is
-/// written above or below, in the unit of the axis, of the most prominent ones first (`place_labels`).
+/// written above or below, in the unit of the axis, of the most prominent ones first
+/// (`place_labels`).
 void add_feature_marks(Panel& panel, std::span<const measured::SpectralFeature> features,
                        FeatureLevel level);
 

@@ -30,8 +30,8 @@ struct FigureOptions {
 /// "svg".
 std::string_view to_string(FigureFormat format);
 
-/// The figure with the options' units, font and size, enlarged where a panel would be less than four lines
-/// of text high or fourteen characters wide.
+/// The figure with the options' units, font and size, enlarged where a panel would be less than
+/// four lines of text high or fourteen characters wide.
 Figure with_options(Figure figure, const FigureOptions& options);
 
 /// A document in that format, drawn by gnuplot. Throws std::invalid_argument as `lay_out` does, and

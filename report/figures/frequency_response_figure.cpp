@@ -171,9 +171,8 @@ double largest_of(const std::vector<double>& values) {
 Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& interval,
                       const std::vector<ModelCurve>& models) {
   Panel panel;
-  panel.y = {.label = kMagnitude,
-             .unit = unit_text(response_unit(m.sensor)),
-             .scale = Scale::logarithmic};
+  panel.y = {
+      .label = kMagnitude, .unit = unit_text(response_unit(m.sensor)), .scale = Scale::logarithmic};
   panel.height = 1.8;
   const auto sizes = magnitude(m.response);
   panel.series.push_back(measured_curve(kMeasured, m.frequency_Hz, up_to_known(sizes, interval)));

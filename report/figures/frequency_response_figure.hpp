@@ -63,8 +63,8 @@ std::vector<double> interval_95(const MeasuredResponse& measured);
 /// Magnitude with its 95 % interval, phase, and coherence below them on one frequency axis, with
 /// the fitted transfer function and models on top, in the bands that were measured. An interval
 /// that reaches 0 goes on to the lower edge; the phase is left out where its interval is wider than
-/// an eighth turn to both sides, and its panel where it is everywhere. The highest peak that is known
-/// has its frequency beside it, whether or not it is a feature. Below the dotted line the
+/// an eighth turn to both sides, and its panel where it is everywhere. The highest peak that is
+/// known has its frequency beside it, whether or not it is a feature. Below the dotted line the
 /// coherence of unrelated signals stays with 95 %. Without coherence that panel is left out.
 ///
 /// Throws std::invalid_argument where no value is finite and not 0, and for vectors of unlike

@@ -88,8 +88,8 @@ Panel circle_panel(const measured::NyquistCircle& resonance, const std::string& 
   for (std::size_t k = 0; k < directions.size(); ++k) {
     marks.push_back(centre + radius * directions[k]);
     const Complex at = marks.back();
-    panel.annotations.push_back(
-        {at.real(), at.imag(), fmt::format("{:#.5g} Hz", frequencies_Hz[k]), inwards(directions[k])});
+    panel.annotations.push_back({at.real(), at.imag(), fmt::format("{:#.5g} Hz", frequencies_Hz[k]),
+                                 inwards(directions[k])});
   }
   panel.series.push_back(complex_series("natural frequency", std::span(marks).first(1), kNatural));
   panel.series.push_back(

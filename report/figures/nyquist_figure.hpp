@@ -8,7 +8,7 @@
 
 namespace flexarm::report {
 
-/// What the whole locus shows besides the response.
+/// Marks that the whole locus shows besides the response.
 struct NyquistMarks {
   bool minus_one = false;             ///< the point -1, in the unit of the response
   bool negative_frequencies = false;  ///< the response at -f, the conjugate of that at f

@@ -106,10 +106,9 @@ Panel residual_panel(const PredictedSignal& signal, const Stretch& stretch,
   const std::string name = extended ? kExtendedName : kBaselineName;
   Panel panel{.y = {.label = "residual", .unit = signal.unit(), .robust = true},
               .height = static_cast<double>(kResidual_px) / kSignal_px};
-  panel.note =
-      fmt::format("{}, NRMSE of the run {:.3g} % (noise floor {:.3g} %)", name,
-                  100.0 * (extended ? signal.error.after : signal.error.before),
-                  100.0 * signal.error.noise_floor);
+  panel.note = fmt::format("{}, NRMSE of the run {:.3g} % (noise floor {:.3g} %)", name,
+                           100.0 * (extended ? signal.error.after : signal.error.before),
+                           100.0 * signal.error.noise_floor);
   panel.series.push_back(
       {name, time_s, std::move(residual), extended ? kExtendedSignal : kBaselineSignal});
   return panel;
@@ -167,9 +166,9 @@ std::optional<Figure> overlay_figure(const Experiment& experiment, const Diagnos
   Figure figure;
   figure.title = stated.id;
   figure.width_px = kOverlayWidth_px;
-  figure.height_px = kOverlayFurniture_px + kTorque_px +
-                     static_cast<int>(signals.size()) *
-                         (kSignal_px + kResidual_px * (has_extended ? 2 : 1));
+  figure.height_px =
+      kOverlayFurniture_px + kTorque_px +
+      static_cast<int>(signals.size()) * (kSignal_px + kResidual_px * (has_extended ? 2 : 1));
   figure.stacks.push_back(stack_of(record, signals, {0, samples}, has_extended));
   if (samples <= kDrawnSamples) return figure;
   const std::size_t from = worst_stretch(signals, samples);

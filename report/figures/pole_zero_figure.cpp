@@ -106,10 +106,10 @@ PanelStack plane(const PoleZeroPlot& plot, double smallest, double largest) {
   panel.series.push_back({"", {0.0, 0.0}, {-half_side, half_side}, axis_line});
   for_each_list(plot, [&](std::size_t set, bool pole, const std::vector<Root>& roots) {
     // Smaller for each further formulation.
-    const double size = plot.sets[set].is_measured
-                            ? kMeasuredMarker
-                            : std::max(kSmallestMarker,
-                                       kLargestMarker - kMarkerStep * static_cast<double>(set));
+    const double size =
+        plot.sets[set].is_measured
+            ? kMeasuredMarker
+            : std::max(kSmallestMarker, kLargestMarker - kMarkerStep * static_cast<double>(set));
     Series series{
         series_name(plot.sets[set], pole), {}, {}, root_style(pole, colour_of(plot, set), size)};
     for (const Root& s : roots) {

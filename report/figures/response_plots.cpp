@@ -78,8 +78,7 @@ NamedFigure nyquist(const response::ResponseStudy& study, std::size_t k,
         -resonance.pole_rad_per_s.real() / std::abs(resonance.pole_rad_per_s);
     plot.circles.push_back({fmt::format("pole {}: {:.5g} Hz, ζ = {:.3g}", resonance.order,
                                         resonance.pole_rad_per_s.imag() / kTwoPi, damping_ratio),
-                            resonance.values, resonance.at_pole, resonance.below,
-                            resonance.above});
+                            resonance.values, resonance.at_pole, resonance.below, resonance.above});
   }
   return {fmt::format("nyquist-{}", arm::to_string(sensor)), nyquist_figure(plot)};
 }

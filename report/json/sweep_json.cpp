@@ -125,7 +125,9 @@ std::string_view json_name(SweepEvent::Kind kind) {
 
 Json events_json(const SweepResult& result) {
   Json events = Json::array();
-  const auto number = [](int track) { return track == compare::kNoTrack ? Json(nullptr) : Json(track); };
+  const auto number = [](int track) {
+    return track == compare::kNoTrack ? Json(nullptr) : Json(track);
+  };
   for (const SweepEvent& event : result.events) {
     events.push_back({{"roots", compare::label(event.family)},
                       {"track", number(event.track)},

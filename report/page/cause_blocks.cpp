@@ -51,15 +51,19 @@ std::string cause_label(const diagnose::Cause& cause) {
 }
 
 RankingBlock cause_ranking(const diagnose::Diagnosis& diagnosis) {
-  RankingBlock block{{"ranking", "Probability of each cause",
-                      "Posterior probability of each effect by itself, relative to the sets of "
-                      "effects that were tried. Several may be present: the probabilities do not add "
-                      "up."},
-                     {}};
+  RankingBlock block{
+      {"ranking", "Probability of each cause",
+       "Posterior probability of each effect by itself, relative to the sets of "
+       "effects that were tried. Several may be present: the probabilities do not add "
+       "up."},
+      {}};
   for (const auto& cause : diagnosis.causes) {
     const bool is_explaining = explained_percent(cause.share) > 0.0;
-    RankingItem item{cause_label(cause), cause.confidence, probability_text(cause.confidence),
-                     is_explaining, {}};
+    RankingItem item{cause_label(cause),
+                     cause.confidence,
+                     probability_text(cause.confidence),
+                     is_explaining,
+                     {}};
     for (const auto& parameter : cause.parameters) {
       item.details.push_back({text_in_words(parameter.name),
                               estimate_of(parameter.value, parameter.std_error, parameter.unit)});
@@ -138,19 +142,20 @@ CurvesBlock empirical_law_block(const diagnose::EmpiricalLaw& law) {
 }
 
 RankingBlock missing_force_ranking(const diagnose::MissingForce& force) {
-  RankingBlock block{{"missing-force", "Port of the missing force",
-                      "Part of the excess residual that an arbitrary force at each port explains by "
-                      "itself; the parts do not add up."},
-                     {},
-                     "port stated"};
+  RankingBlock block{
+      {"missing-force", "Port of the missing force",
+       "Part of the excess residual that an arbitrary force at each port explains by "
+       "itself; the parts do not add up."},
+      {},
+      "port stated"};
   for (std::size_t i = 0; i < force.ports.size(); ++i) {
     const diagnose::PortShare& port = force.ports[i];
-    RankingItem item{sentence_of(port_name(port)),
-                     explained_percent(port.share) / 100.0,
-                     fmt::format("{:.0f} ± {:.0f} %", explained_percent(port.share),
-                                 100.0 * port.std_error),
-                     i < force.stated,
-                     {}};
+    RankingItem item{
+        sentence_of(port_name(port)),
+        explained_percent(port.share) / 100.0,
+        fmt::format("{:.0f} ± {:.0f} %", explained_percent(port.share), 100.0 * port.std_error),
+        i < force.stated,
+        {}};
     if (!port.place.empty()) item.details.push_back({"best place", text_in_words(port.place)});
     block.items.push_back(std::move(item));
   }

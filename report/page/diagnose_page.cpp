@@ -68,19 +68,18 @@ std::vector<Fact> cause_results(const Diagnosis& diagnosis) {
   }
   for (const auto& number : diagnosis.refitted) {
     if (!number.has_moved()) continue;
-    results.push_back({number.key + ", refitted",
-                       estimate_of(number.value, number.std_error, number.unit)});
+    results.push_back(
+        {number.key + ", refitted", estimate_of(number.value, number.std_error, number.unit)});
   }
   return results;
 }
 
 /// "467 % → 0.504 %"; of a diagnosis without an extended arm the first alone.
 std::string fall_text(double before, double after, bool has_simulation_after) {
-  return has_simulation_after ? percent_of(before) + " → " + percent_of(after)
-                              : percent_of(before);
+  return has_simulation_after ? percent_of(before) + " → " + percent_of(after) : percent_of(before);
 }
 
-/// What is left: NRMSE, the noise floor, and the band that is furthest above it.
+/// Residuals: NRMSE, the noise floor, and the band that is furthest above it.
 std::vector<Fact> facts_of_what_is_left(const Diagnosis& diagnosis) {
   const bool has_simulation_after = has_after(diagnosis);
   const diagnose::Gain& gain = diagnosis.estimation;
@@ -96,21 +95,20 @@ std::vector<Fact> facts_of_what_is_left(const Diagnosis& diagnosis) {
     return (has_simulation_after ? band.after : band.before) - band.noise;
   };
   if (const auto worst = std::ranges::max_element(bands, {}, excess); worst != bands.end()) {
-    facts.push_back({fmt::format("most is left in {}, {} to {} Hz", text_in_words(worst->sensor),
-                                 number_of(worst->band.from_Hz, 3),
-                                 number_of(worst->band.to_Hz, 3)),
-                     fmt::format("{} (noise {})",
-                                 percent_of(has_simulation_after ? worst->after : worst->before),
-                                 percent_of(worst->noise))});
+    facts.push_back(
+        {fmt::format("most is left in {}, {} to {} Hz", text_in_words(worst->sensor),
+                     number_of(worst->band.from_Hz, 3), number_of(worst->band.to_Hz, 3)),
+         fmt::format("{} (noise {})",
+                     percent_of(has_simulation_after ? worst->after : worst->before),
+                     percent_of(worst->noise))});
   }
   if (diagnosis.verdict != diagnose::Verdict::adequate) {
-    facts.push_back(
-        {"probability of something else", probability_text(diagnosis.something_else)});
+    facts.push_back({"probability of something else", probability_text(diagnosis.something_else)});
   }
   return facts;
 }
 
-/// What to do next: what restricts the verdict comes first.
+/// Next step: what restricts the verdict comes first.
 std::string next_step_of(const Diagnosis& diagnosis) {
   if (!implausible_numbers_text(diagnosis).empty()) {
     return "Check the arm file: numbers are implausible after the fit.";

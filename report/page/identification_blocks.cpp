@@ -258,8 +258,8 @@ CurvesBlock autopower_spectra(const IdentifiedRuns& runs) {
         is_torque ? "N m" : axis_unit(arm::parse_sensor(measured::to_string(input)));
     CurvesView view{{run.run.id}, {}, {}};
     view.panels.push_back(spectrum_of(text_in_words(measured::to_string(input)), input_unit,
-                                      Role::measured, estimate.frequency_Hz, estimate.input_autopower,
-                                      {}));
+                                      Role::measured, estimate.frequency_Hz,
+                                      estimate.input_autopower, {}));
     for (const auto& channel : estimate.channels) {
       view.panels.push_back(spectrum_of(sensor_label(channel.sensor), axis_unit(channel.sensor),
                                         Role::measured, estimate.frequency_Hz, channel.autopower,
@@ -334,8 +334,8 @@ ScatterBlock stabilisation_charts(const IdentifiedRuns& runs) {
         y.push_back(pole.order);
       }
       if (x.empty()) continue;
-      panel.series.push_back(
-          {kStabilities[kind].first, kStabilities[kind].second, Draw::points, std::move(x), std::move(y)});
+      panel.series.push_back({kStabilities[kind].first, kStabilities[kind].second, Draw::points,
+                              std::move(x), std::move(y)});
     }
     block.views.push_back({{joined(ids_of(fit, runs.identification))}, {}, {std::move(panel)}});
   }

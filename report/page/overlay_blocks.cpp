@@ -37,7 +37,7 @@ CurvesPanel residual_panel(const DiagnosedChannel& channel, const std::string& l
   return panel;
 }
 
-/// What drives the run, as it was recorded: the torque, and the reference of a controller.
+/// Recorded inputs of the run: the torque, and the reference of a controller.
 std::vector<CurvesPanel> input_panels(const DiagnosedChannel& channel) {
   const auto& record = record_of_run(channel);
   std::vector<CurvesPanel> panels;
@@ -149,17 +149,19 @@ CurvesView correlation_view(const DiagnosedChannel& channel, bool has_causes,
 }  // namespace
 
 CurvesBlock overlay_block(const std::vector<DiagnosedChannel>& channels, bool has_causes) {
-  CurvesBlock block{{"overlay", "Signals, residuals and torque",
-                     "The channel with the largest error is first. Each panel has a scale of its own. "
-                     "Of a long run the panels show the part where the residuals of the arm file are "
-                     "largest; the strip below them shows the whole run."},
-                    {"time", "s"},
-                    {"run", "sensor"},
-                    {}};
+  CurvesBlock block{
+      {"overlay", "Signals, residuals and torque",
+       "The channel with the largest error is first. Each panel has a scale of its own. "
+       "Of a long run the panels show the part where the residuals of the arm file are "
+       "largest; the strip below them shows the whole run."},
+      {"time", "s"},
+      {"run", "sensor"},
+      {}};
   for (const DiagnosedChannel& channel : channels) {
     block.views.push_back({{channel.run->run.id, channel.sensor},
                            channel.facts(has_causes),
-                           overlay_panels(channel, has_causes), worst_stretch_s(channel)});
+                           overlay_panels(channel, has_causes),
+                           worst_stretch_s(channel)});
   }
   return block;
 }

@@ -86,7 +86,8 @@ std::string estimate_of(double value, double std_error, const std::string& unit)
   constexpr int kMostDigits = 12;
   int digits = kWithoutError;
   if (std_error > 0.0 && std::isfinite(std_error) && value != 0.0) {
-    const double decades = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(std_error));
+    const double decades =
+        std::floor(std::log10(std::abs(value))) - std::floor(std::log10(std_error));
     digits = std::clamp(kDigitsOfError + static_cast<int>(decades), 1, kMostDigits);
   }
   const std::string printed = unit_text(unit);

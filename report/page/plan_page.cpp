@@ -51,8 +51,8 @@ RankingBlock distinguishability(const Plan& plan) {
       lead = nearest ? nearest->lead : std::numeric_limits<double>::infinity();
       item.share = share_of(lead);
       item.value = nearest ? lead_words(lead) : "no alternative";
-      item.details.push_back(
-          {"minimum detectable value", unit_text(text_in_words(minimum_detectable(plan.effects[i])))});
+      item.details.push_back({"minimum detectable value",
+                              unit_text(text_in_words(minimum_detectable(plan.effects[i])))});
       if (nearest) {
         item.details.push_back({"nearest alternative", effect_words(plan, nearest->effect)});
       }
@@ -181,16 +181,16 @@ PageDocument plan_page(const Plan& plan, const PageOrigin& origin) {
       {"runs of the improved plan", fmt::format("{}", plan.better.runs.size())}};
   for (const auto& tie : plan.ties) {
     if (document.results.size() == kShownPairs) break;
-    document.results.push_back(
-        {effect_words(plan, tie.truth) + " and " +
-             text_in_words(plan.effects[tie.rival].hypothesis.label()),
-         lead_words(tie.lead)});
+    document.results.push_back({effect_words(plan, tie.truth) + " and " +
+                                    text_in_words(plan.effects[tie.rival].hypothesis.label()),
+                                lead_words(tie.lead)});
   }
-  document.next_step = plan.ties.empty() ? "Measure as planned."
-                       : plan.added.empty()
-                           ? "Measure another signal: no run that was considered resolves a pair."
-                           : fmt::format("Measure with the improved plan, which --write writes: {}.",
-                                         text_in_words(plan.added.front().further.change));
+  document.next_step =
+      plan.ties.empty() ? "Measure as planned."
+      : plan.added.empty()
+          ? "Measure another signal: no run that was considered resolves a pair."
+          : fmt::format("Measure with the improved plan, which --write writes: {}.",
+                        text_in_words(plan.added.front().further.change));
   document.add(ties_section(plan));
   Section detection{"detection", "Detection"};
   for (const auto& notice : plan.notices) detection.text.push_back(sentence_of(notice));

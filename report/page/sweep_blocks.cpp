@@ -100,7 +100,8 @@ SweepTrack track_of(const SweepCurve& curve, const GridRow& row, std::size_t ind
 /// "zero 2 coalesces with zero 3".
 std::string event_text(const compare::SweepEvent& event) {
   const char* name = event.family.zeros_of ? "zero" : "pole";
-  std::string text = event.track != compare::kNoTrack ? fmt::format("{} {} ", name, event.track) : "";
+  std::string text =
+      event.track != compare::kNoTrack ? fmt::format("{} {} ", name, event.track) : "";
   text += word_for(event.kind);
   if (event.other != compare::kNoTrack) text += fmt::format(" {} {}", name, event.other);
   return text;

@@ -50,7 +50,8 @@ std::vector<Fact> sweep_facts(const SweepResult& result) {
                      number_of(axis.values.back(), 4), unit.empty() ? "" : " " + unit)});
   }
   facts.push_back({"points", fmt::format("{}", result.task.points())});
-  if (const auto* worst = largest_sweep_difference(result); worst != nullptr && worst->compared > 0) {
+  if (const auto* worst = largest_sweep_difference(result);
+      worst != nullptr && worst->compared > 0) {
     facts.push_back({"largest relative difference",
                      fmt::format("{:.2g} (tolerance {:g})", worst->worst, worst->tolerance)});
   }

@@ -279,7 +279,8 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
           : "";
   return named + on_modes +
          fmt::format(
-             " The unrecorded hub torque, as the filter estimates it, is {:.3g} N m rms with the arm "
+             " The unrecorded hub torque, as the filter estimates it, is {:.3g} N m rms with the "
+             "arm "
              "file{}; the commanded torque is {:.3g} N m rms. Its correlation time is {:.2g} s. "
              "NRMSE below is that of a simulation.",
              left.before_N_m,
@@ -345,9 +346,8 @@ Table near_miss_table(const diagnose::Diagnosis& diagnosis) {
                {.name = "delta BIC", .significant_digits = 3},
                {.name = "NRMSE", .unit = "%", .significant_digits = 3}}};
   for (const auto& miss : diagnosis.near_misses) {
-    table.add_row(
-        {miss.effects, miss.probability, explained_percent(miss.share), miss.information,
-         100.0 * miss.error});
+    table.add_row({miss.effects, miss.probability, explained_percent(miss.share), miss.information,
+                   100.0 * miss.error});
   }
   return table;
 }

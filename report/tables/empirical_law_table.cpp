@@ -23,8 +23,8 @@ std::string empirical_law_text(const diagnose::EmpiricalLaw& law) {
       "Empirical law: a torque on the hub that depends on {} removes {:.3g} % of the mean square "
       "of the residual hub torque. With it in the extended arm, NRMSE of a simulation falls from "
       "{:.3g} to {:.3g} %. Median standard error of its torques: {:.2g} N m.",
-      axes_of(law.table), explained_percent(law.share), 100.0 * law.error_before, 100.0 * law.error_after,
-      law.std_error_N_m);
+      axes_of(law.table), explained_percent(law.share), 100.0 * law.error_before,
+      100.0 * law.error_after, law.std_error_N_m);
   if (law.table.friction_N_m() > 0.0) {
     text += fmt::format(" Dry friction in it: {:.3g} N m.", law.table.friction_N_m());
   }

@@ -77,8 +77,9 @@ Table missing_force_table(const diagnose::MissingForce& force) {
               {.name = "stated"}}};
   for (std::size_t i = 0; i < force.ports.size(); ++i) {
     const diagnose::PortShare& port = force.ports[i];
-    made.add_row({port_name(port), port.place, explained_percent(port.share), 100.0 * port.std_error,
-                  100.0 * port.distance_std_error, std::string(i < force.stated ? "yes" : "no")});
+    made.add_row({port_name(port), port.place, explained_percent(port.share),
+                  100.0 * port.std_error, 100.0 * port.distance_std_error,
+                  std::string(i < force.stated ? "yes" : "no")});
   }
   return made;
 }

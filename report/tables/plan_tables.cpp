@@ -127,7 +127,8 @@ Table detection_table(const Plan& plan) {
                {.name = "closest distinguishable (delta BIC)"}}};
   std::vector<std::size_t> order(plan.effects.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return distinguishability_of(plan, i); });
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return distinguishability_of(plan, i); });
   for (const std::size_t i : order) {
     table.add_row({label_of(plan, i), minimum_detectable(plan.effects[i]),
                    fmt::format("{}", fmt::join(tied_with(plan, i), ", ")),

@@ -50,8 +50,7 @@ Table prediction_error_table(const std::vector<diagnose::PredictionError>& error
   Table table{std::string(kPredictionCaption) + ", NRMSE, mean of the channels", error_columns()};
   for (const auto& [samples, mean] : means) {
     table.add_row({samples_cell(samples), ahead_cell(mean.ahead_s),
-                   100.0 * mean.before / mean.channels,
-                   100.0 * mean.after / mean.channels});
+                   100.0 * mean.before / mean.channels, 100.0 * mean.after / mean.channels});
   }
   return table;
 }

@@ -12,7 +12,7 @@ namespace flexarm::report {
 /// reported one.
 Table prediction_error_table(const std::vector<diagnose::PredictionError>& errors);
 
-/// The same channel by channel, with the filter's simulation.
+/// Prediction errors channel by channel, with the filter's simulation.
 Table channel_prediction_error_table(const std::vector<diagnose::PredictionError>& errors);
 
 }  // namespace flexarm::report

@@ -22,10 +22,11 @@ struct Resonance {
 };
 
 /// The response of one sensor around each of the poles, lowest and flexible, whose frequency |Im s|
-/// lies strictly between `from_Hz` and `to_Hz`. The frequencies stand at equal angles on the circles
-/// that single poles would draw, Im s + |Re s| tan(angle/2) of each pole in the range. It goes as
-/// far as the geometric mean with the neighbouring poles (an octave where none oscillates), and at
-/// least two half-widths |Re s| to either side, downwards an octave at most. Poles on the imaginary and on the real axis draw no circle and are left out.
+/// lies strictly between `from_Hz` and `to_Hz`. The frequencies stand at equal angles on the
+/// circles that single poles would draw, Im s + |Re s| tan(angle/2) of each pole in the range. It
+/// goes as far as the geometric mean with the neighbouring poles (an octave where none oscillates),
+/// and at least two half-widths |Re s| to either side, downwards an octave at most. Poles on the
+/// imaginary and on the real axis draw no circle and are left out.
 std::vector<Resonance> resonances(const AnyFormulation& formulation, const LinearChain& chain,
                                   const arm::Sensor& sensor, const arm::DampedPoleSet& poles,
                                   double from_Hz, double to_Hz);

@@ -193,8 +193,9 @@ TEST_F(Import, FrequencyRecordsAndModalTablesAreReadToo) {
   ASSERT_EQ(import({"f.csv", "--save-as", "f.uff"}).status, 0);
   ASSERT_EQ(import({"f.uff", "--out", "g"}).status, 0);
   EXPECT_EQ(run_in("g"), run_in("f"));
-  expect_refused(import({"f.uff", "--time-unit", "ms"}),
-                 "--compute, --torque, --time-unit, --reference, --own-rate: only for time signals");
+  expect_refused(
+      import({"f.uff", "--time-unit", "ms"}),
+      "--compute, --torque, --time-unit, --reference, --own-rate: only for time signals");
   write("m.csv", "sensor,feature,order,frequency [Hz]\n,pole,1,11.8\nhub_angle,zero,1,2.9\n");
   ASSERT_EQ(import({"m.csv", "--out", "m"}).status, 0);
   EXPECT_EQ(std::get<measured::ModalTable>(run_in("m")).size(), 2U);

@@ -15,11 +15,11 @@ namespace flexarm::testing_app {
 namespace {
 
 using Json = nlohmann::json;
-using testing_environment::EnvironmentVariable;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
+using testing_environment::EnvironmentVariable;
 
 const std::string kArmOfReport =
     "[beam]\nlength = 0.96\nthickness = 0.0032\nflexural_rigidity = 3.7\n"
@@ -269,9 +269,9 @@ TEST_F(Report, OfAPlanHasTheEffectsOfTheJson) {
 
 TEST_F(Report, OfASimulationThatIsRightHasNoExtendedArm) {
   write("true.toml", kArmOfReport);
-  const Ended ended = run({"simulate", "true.toml", "--duration", "2", "--period", "0.002",
-                           "--sensor", "hub_angle", "--noise", "0.01", "--excitation",
-                           "random:rms=0.05,to=60,id=random", "--out", "right"});
+  const Ended ended =
+      run({"simulate", "true.toml", "--duration", "2", "--period", "0.002", "--sensor", "hub_angle",
+           "--noise", "0.01", "--excitation", "random:rms=0.05,to=60,id=random", "--out", "right"});
   ASSERT_EQ(ended.status, 0) << ended.errors;
   const ReadPage page =
       page_of({"diagnose", "right/measurement.toml", "--effects", "payload_mass,time_delay"});

@@ -25,8 +25,7 @@ Figure bode() {
                                .curves = {{"exact", {0.1, 10.0, {0.0, 0.01}}}}});
   Panel& panel = figure.stacks[0].panels[0];
   panel.y.minimum = 0.001;
-  panel.series.push_back(
-      {"interval", {1.0, 10.0}, {0.05, 8.0}, {.filled = true}, {0.2, 12.0}});
+  panel.series.push_back({"interval", {1.0, 10.0}, {0.05, 8.0}, {.filled = true}, {0.2, 12.0}});
   measured::SpectralFeature peak;
   peak.frequency_Hz = peak.line_Hz = 10.0;
   peak.level_dB = 20.0;
@@ -50,16 +49,13 @@ TEST(AxisUnits, DecibelsAreTwentyTimesTheLogarithm) {
 TEST(AxisUnits, AnInverseUnitIsItsOwnReference) {
   Figure strain = bode();
   strain.stacks[0].panels[0].y.unit = "1/(N m)";
-  EXPECT_EQ(in_units(strain, MagnitudeScale::decibel, FrequencyUnit::hertz)
-                .stacks[0]
-                .panels[0]
-                .y.unit,
-            "dB re 1/(N m)");
+  EXPECT_EQ(
+      in_units(strain, MagnitudeScale::decibel, FrequencyUnit::hertz).stacks[0].panels[0].y.unit,
+      "dB re 1/(N m)");
 }
 
 TEST(AxisUnits, AngularFrequenciesAreOnTheAxisAndInTheLabels) {
-  const Figure made =
-      in_units(bode(), MagnitudeScale::absolute, FrequencyUnit::radians_per_second);
+  const Figure made = in_units(bode(), MagnitudeScale::absolute, FrequencyUnit::radians_per_second);
   const PanelStack& stack = made.stacks[0];
   EXPECT_EQ(stack.x.unit, "rad/s");
   for (const Panel& panel : stack.panels) {
@@ -76,8 +72,7 @@ TEST(AxisUnits, AFrequencyMayBeOnTheUprightAxis) {
   sweep.stacks = {{.x = {.label = "payload mass", .unit = "kg"},
                    .panels = {{.y = {.label = "|s|/2π", .unit = "Hz", .maximum = 2.0},
                                .series = {{"", {0.1, 0.2}, {1.0, 2.0}}}}}}};
-  const Figure made =
-      in_units(sweep, MagnitudeScale::decibel, FrequencyUnit::radians_per_second);
+  const Figure made = in_units(sweep, MagnitudeScale::decibel, FrequencyUnit::radians_per_second);
   const Panel& panel = made.stacks[0].panels[0];
   EXPECT_EQ(panel.y.label, "|s|");
   EXPECT_EQ(panel.y.unit, "rad/s");

@@ -193,9 +193,9 @@ TEST(FrequencyResponseFigure, OfTheArmHasFitModelAndFeatures) {
     EXPECT_DOUBLE_EQ(curve->y[i], std::abs(fit.transfers[1].value(s)));
   }
   const std::string svg = to_svg(figure);
-  for (const char* text : {"magnitude [m/s²/(N m)]", "phase [deg]", "coherence", "frequency [Hz]",
-                           "measured", "95 % interval", "fit", "analytical", "analytical pole",
-                           "peak", "coherence threshold"}) {
+  for (const char* text :
+       {"magnitude [m/s²/(N m)]", "phase [deg]", "coherence", "frequency [Hz]", "measured",
+        "95 % interval", "fit", "analytical", "analytical pole", "peak", "coherence threshold"}) {
     EXPECT_THAT(svg, HasSubstr(std::string("<text>") + text + "</text>")) << text;
   }
 }

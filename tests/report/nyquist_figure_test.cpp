@@ -80,7 +80,7 @@ TEST(NyquistFigure, EachCircleFillsAPanelToScale) {
 
 TEST(NyquistFigure, APanelHoldsItsValuesHoweverFarTheyAreFromItsHalfPowerPoints) {
   NyquistPlot one = plot(1);
-  // Of a pole whose neighbours are near: the background carries the response away.
+  // A pole whose neighbours are near: the background carries the response away.
   one.circles[0].values = {{40.0, 3.0}, {41.0, 2.0}, {43.0, -60.0}};
   const Panel panel = nyquist_figure(one).stacks[1].panels[0];
   for (const Complex& value : one.circles[0].values) {

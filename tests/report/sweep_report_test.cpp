@@ -55,10 +55,11 @@ SweepResult sample(bool damped = true) {
   }
   result.modes.hub_slope = {{{4.0, 3.5, 3.0}}, {{4.0, 3.5, 3.0}}};
   result.modes.tip_value_m = {{{-0.6, -0.5, -0.4}}, {{-0.6, -0.5, -0.4}}};
-  result.events = {{SweepEvent::Kind::appears_beyond, tip_zeros, 2, compare::kNoTrack, 0, 0.0, 1e-5},
-                   {SweepEvent::Kind::meet, tip_zeros, 1, 3, 0, 1e-4, 2e-4},
-                   {SweepEvent::Kind::ambiguous, tip_zeros, compare::kNoTrack, compare::kNoTrack, 0, 1e-4,
-                    2e-4}};
+  result.events = {
+      {SweepEvent::Kind::appears_beyond, tip_zeros, 2, compare::kNoTrack, 0, 0.0, 1e-5},
+      {SweepEvent::Kind::meet, tip_zeros, 1, 3, 0, 1e-4, 2e-4},
+      {SweepEvent::Kind::ambiguous, tip_zeros, compare::kNoTrack, compare::kNoTrack, 0, 1e-4,
+       2e-4}};
   result.agreement = {{"poles", "fem", 0.01, 1, 1, 1e-9, 3, 0, 0},
                       {"tip_acceleration zeros", "fem", 0.0, 0, 1, 1e-9, 2, 3, 2}};
   return result;

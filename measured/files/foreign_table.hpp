@@ -16,6 +16,7 @@ struct ForeignColumn {
   std::vector<std::string> texts = {};  ///< in place of the values in a column of text
   bool is_stamp = false;                ///< seconds of time stamps, clocks or dates in the file
   bool is_made = false;                 ///< times of a start and a period that the file tells
+  std::string path = {};                ///< where it stands in a file of structures; empty: by name
 
   bool is_text() const { return !texts.empty(); }
   /// Whether it has no number at all.

@@ -57,7 +57,13 @@ struct TypedColumn {
 /// NAME, NAME:UNIT or NAME:UNIT:SCALE; a name may hold colons, so that the file tells which it is.
 TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> columns) {
   const std::vector<std::string> names = names_of(columns);
-  auto place = measured::column_place(names, text);
+  const auto place_of = [&](std::string_view typed) {
+    const auto by_path = std::ranges::find(columns, typed, &ColumnLabel::path);
+    return by_path == columns.end() || typed.empty()
+               ? measured::column_place(names, typed)
+               : std::optional(static_cast<std::size_t>(by_path - columns.begin()));
+  };
+  auto place = place_of(text);
   std::string_view name = text;
   std::string_view unit;
   std::string_view scale;
@@ -65,7 +71,7 @@ TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> colu
     const auto parts = split_at_colon(text, colons);
     if (!parts) break;
     name = parts->first;
-    place = measured::column_place(names, name);
+    place = place_of(name);
     unit = parts->second.substr(0, parts->second.find(':'));
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
@@ -76,8 +82,9 @@ TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> colu
 /// As the file has it; a name that several columns have is no place.
 std::string name_of(const TypedColumn& typed, std::span<const ColumnLabel> columns) {
   const std::string& name = columns[typed.place].name;
-  return std::ranges::count(columns, name, &ColumnLabel::name) == 1 ? name
-                                                                    : std::string(typed.name);
+  const std::string& path = columns[typed.place].path;
+  if (std::ranges::count(columns, name, &ColumnLabel::name) == 1) return name;
+  return path.empty() ? std::string(typed.name) : path;
 }
 
 /// A scale is in the unit, so that a gear of 1/50 is 1/50 of rpm as of rad/s.

@@ -3,6 +3,7 @@
 #include "app/import_report.hpp"
 #include "app/import_runs.hpp"
 #include "app/imported_file.hpp"
+#include "app/joined_files.hpp"
 #include "app/json_file.hpp"
 #include "app/record_format.hpp"
 #include "app/run_choice.hpp"
@@ -42,6 +43,7 @@ namespace fs = std::filesystem;
 struct ImportArguments {
   std::vector<std::string> files;
   FileChoice file;
+  JoinChoice join;
   std::string kind;
   std::string controller;
   RunsChoice runs;
@@ -63,7 +65,10 @@ std::string arm_text(const ImportArguments& arguments) {
 }
 
 void require_consistent(const ImportArguments& arguments) {
-  require_valid(arguments.runs, arguments.files.size());
+  require_valid(arguments.runs, arguments.join.is_wanted ? 1 : arguments.files.size());
+  if (!arguments.join.is_wanted && arguments.join.grid != "same") {
+    throw arm::InputError("--join-grid: needs --join");
+  }
   if (arguments.record_file.empty() && !arguments.record_format.empty()) {
     throw arm::InputError("--to: needs --save-as");
   }
@@ -129,6 +134,22 @@ std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
   return experiment::read_controller(arguments.controller, "--controller");
 }
 
+/// The files one by one, or joined.
+std::vector<ImportedFile> read_files(const ImportArguments& arguments, const FileChoice& choice) {
+  if (arguments.join.is_wanted) {
+    return {import_joined(
+        arguments.files, choice, arguments.join,
+        arguments.runs.hold == "first" ? measured::TorqueHold::first : measured::TorqueHold::zero)};
+  }
+  report::Progress progress("reading files", static_cast<std::int64_t>(arguments.files.size()));
+  std::vector<ImportedFile> files;
+  for (const auto& file : arguments.files) {
+    files.push_back(import_file(read_file(file, choice), choice));
+    progress.advance();
+  }
+  return files;
+}
+
 int run_import(const ImportArguments& typed) {
   ImportArguments arguments = typed;
   arguments.runs.controller = controller_of(arguments);
@@ -146,17 +167,15 @@ int run_import(const ImportArguments& typed) {
   require_consistent(arguments);
   const std::string arm = arm_text(arguments);
 
-  std::vector<ImportedFile> files;
+  if (arguments.join.is_wanted && arguments.runs.id.empty()) {
+    arguments.runs.id = id_of_file(arguments.files.front());
+  }
+  const std::vector<ImportedFile> files = read_files(arguments, choice);
   std::vector<ImportedRun> runs;
   std::set<std::string> ids;
-  {
-    report::Progress progress("reading files", static_cast<std::int64_t>(arguments.files.size()));
-    for (const auto& file : arguments.files) {
-      files.push_back(import_file(file, choice));
-      auto more = runs_of(files.back(), arguments.runs, ids);
-      std::ranges::move(more, std::back_inserter(runs));
-      progress.advance();
-    }
+  for (const auto& file : files) {
+    auto more = runs_of(file, arguments.runs, ids);
+    std::ranges::move(more, std::back_inserter(runs));
   }
   set_purposes(runs, arguments.runs);
   if (format && runs.size() > 1) {
@@ -180,6 +199,7 @@ void add_file_options(CLI::App& parser, ImportArguments& arguments) {
                   "kd, ki, derivative (error or measurement), limit [N m] and sample_time [s], or "
                   "a TOML file with these keys or A, B, C, D")
       ->check(not_empty());
+  add_join_choice(parser, arguments.join);
   parser.add_option("--kind", arguments.kind, "Content: time, frf or modal; default: detected");
   parser.add_option("--period", arguments.file.period_s,
                     "Sampling period [s] of a file without a time column");
@@ -193,7 +213,7 @@ void add_file_options(CLI::App& parser, ImportArguments& arguments) {
 Command add_import(CLI::App& program) {
   const auto arguments = std::make_shared<ImportArguments>();
   CLI::App* parser = program.add_subcommand(
-      "import", "Convert log files (text, universal file, MATLAB, doubles) to a measurement");
+      "import", "Convert log files (text, universal file, MATLAB, JSON, doubles) to a measurement");
   add_file_options(*parser, *arguments);
   add_runs_choice(*parser, arguments->runs);
   parser

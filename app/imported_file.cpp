@@ -7,6 +7,7 @@
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/complete_rows.hpp"
 #include "measured/files/raw_doubles.hpp"
+#include "measured/files/time_grid.hpp"
 #include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
@@ -144,8 +145,30 @@ std::string asked(const measured::ColumnGuess& guess, bool torque_alone) {
   return text;
 }
 
+/// "; not read: ts: an object of ...", of what stands in the file besides.
+std::string besides(const std::vector<std::string>& left_out) {
+  if (left_out.empty()) return "";
+  return "; not read: " + arm::shown(fmt::format("{}", fmt::join(left_out, "; ")), 400);
+}
+
+/// " (log{1} increases evenly, as a time does)", of the only column that does.
+std::string likely_time(const ForeignTable& table) {
+  std::vector<std::string> found;
+  for (const auto& column : table.columns) {
+    constexpr std::size_t kFewest = 3;
+    const bool is_even =
+        column.values.size() >= kFewest &&
+        std::ranges::all_of(column.values, [](double t) { return std::isfinite(t); }) &&
+        !measured::grid_fault(column.values);
+    if (is_even) found.push_back(column.name);
+  }
+  return found.size() == 1
+             ? fmt::format(" ({} increases evenly, as a time does)", arm::shown(found.front()))
+             : "";
+}
+
 void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels,
-                  const std::string& incomplete_response) {
+                  const ForeignFile& file) {
   const measured::ColumnMappings& mappings = guess.mappings;
   for (const auto& [quantity, otherwise] :
        {std::pair{"time", ", or the sampling period with --period"},
@@ -156,12 +179,15 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
           fmt::format("{0}: {1}? Choose one with --column {0}=NAME", quantity,
                       arm::shown(fmt::format("{}", fmt::join(several->second, " or ")), 400)));
     }
+    const bool is_time = quantity == std::string_view("time");
     throw InputError(fmt::format(
-        "{0}: column not recognised; columns: {1}; assign one with --column "
-        "{0}=NAME:UNIT:SCALE{2}{3}{4}",
-        quantity, join_names(labels), otherwise,
-        quantity == std::string_view("torque") ? asked(guess, true) : "",
-        incomplete_response.empty() ? "" : "; no frequency response: " + incomplete_response));
+        "{0}: column not recognised; columns: {1}{2}; assign one with --column "
+        "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}",
+        quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
+        quantity == std::string_view("torque") ? asked(guess, true) : "", besides(file.left_out),
+        file.incomplete_response.empty()
+            ? ""
+            : "; no frequency response: " + file.incomplete_response));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -173,8 +199,8 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
   }
   throw InputError(
       fmt::format("no column is a sensor; columns: {}; assign one with --column "
-                  "hub_angle=NAME:UNIT:SCALE{}",
-                  join_names(labels), asked(guess, false)));
+                  "hub_angle=NAME:UNIT:SCALE{}{}",
+                  join_names(labels), asked(guess, false), besides(file.left_out)));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -265,7 +291,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   auto guess =
       measured::guess_columns(to_guess, choice.columns.mappings(labels, imported.assumptions));
   choice.columns.set_time_unit(guess.mappings);
-  require_told(guess, labels, file.incomplete_response);
+  require_told(guess, labels, file);
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
   auto used = measured::places_used(guess.mappings, names);
@@ -296,25 +322,24 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   doubt_time(choice, imported);
 }
 
-ForeignFile read_file(const std::string& path, const FileChoice& choice, std::string& format) {
-  if (!choice.raw_columns) {
-    ForeignFile file = measured::read_foreign_file(path);
-    format = to_string(file.format);
-    return file;
-  }
-  ForeignFile file;
-  file.table = measured::read_raw_doubles(path, *choice.raw_columns);
-  format = "raw doubles";
-  return file;
-}
-
 }  // namespace
 
-ImportedFile import_file(const std::string& path, const FileChoice& choice) {
-  const std::string name = arm::shown(path);
+ReadFile read_file(const std::string& path, const FileChoice& choice) {
+  if (choice.raw_columns) {
+    return {
+        path, "raw doubles", {{}, measured::read_raw_doubles(path, *choice.raw_columns), {}, {}}};
+  }
+  ForeignFile contents = measured::read_foreign_file(path);
+  std::string format = to_string(contents.format);
+  return {path, std::move(format), std::move(contents)};
+}
+
+ImportedFile import_file(ReadFile read, const FileChoice& choice) {
+  const std::string name = arm::shown(read.file);
+  ForeignFile& file = read.contents;
   ImportedFile imported;
-  imported.file = path;
-  ForeignFile file = read_file(path, choice, imported.format);
+  imported.file = read.file;
+  imported.format = read.format;
   try {
     take_typed_responses(file, choice);
     imported.assumptions = file.table.assumptions;

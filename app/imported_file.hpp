@@ -37,10 +37,18 @@ struct ImportedFile {
   std::vector<std::string> not_used;         ///< columns and what else the file holds
 };
 
-/// Reads a file.
-///
-/// Throws InputError with one line: as the readers do, for a file of two kinds, and, with the
-/// columns found, where time or torque cannot be told or nothing is a sensor.
-ImportedFile import_file(const std::string& file, const FileChoice& choice);
+/// A foreign file as it stands.
+struct ReadFile {
+  std::string file;
+  std::string format;  ///< "delimited text", ...
+  measured::ForeignFile contents;
+};
+
+/// Reads a file. Throws InputError with one line, as the readers do.
+ReadFile read_file(const std::string& file, const FileChoice& choice);
+
+/// Takes columns for quantities. Throws InputError with one line for a file of two kinds, and, with
+/// the columns found, where time or torque cannot be told or nothing is a sensor.
+ImportedFile import_file(ReadFile read, const FileChoice& choice);
 
 }  // namespace flexarm::app

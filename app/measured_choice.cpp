@@ -22,9 +22,13 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLargestMeasuredFile_bytes = std::size_t{1} << 28U;
 
 bool is_frequency_record(const std::string& file) {
-  const auto rows = measured::parse_csv(measured::read_text_file(file, kLargestMeasuredFile_bytes),
-                                        arm::shown(file));
-  return !rows.empty() && std::ranges::count(rows.front().cells, "re") > 0;
+  const std::string text = measured::read_text_file(file, kLargestMeasuredFile_bytes);
+  try {
+    const auto rows = measured::parse_csv(text, arm::shown(file));
+    return !rows.empty() && std::ranges::count(rows.front().cells, "re") > 0;
+  } catch (const arm::InputError&) {
+    return false;  // the reader of modal tables says what it is
+  }
 }
 
 MeasuredFile runs_of_measurement(const std::string& file) {

@@ -38,7 +38,7 @@ Deadline deadline_of(const DiagnosisRequest& request, Clock::time_point begun) {
 }
 
 Experiment read_experiment(const std::filesystem::path& measurement_file,
-                           const DiagnosisRequest& request) {
+                           const DiagnosisRequest& request, const Deadline& deadline) {
   std::vector<measured::Fault> faults;
   for (const auto& check : request.accepted) {
     try {
@@ -47,7 +47,7 @@ Experiment read_experiment(const std::filesystem::path& measurement_file,
       throw arm::InputError(fmt::format("{} {}", request.spelled("accept"), error.what()));
     }
   }
-  return read_experiment(measurement_file, faults);
+  return read_experiment(measurement_file, faults, deadline);
 }
 
 void require_valid(const DiagnosisRequest& request) {

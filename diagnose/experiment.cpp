@@ -115,7 +115,8 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold) {
 }
 
 Experiment read_experiment(const fs::path& measurement_file,
-                           const std::vector<measured::Fault>& accepted) {
+                           const std::vector<measured::Fault>& accepted,
+                           const arm::Deadline& deadline) {
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;
   experiment.files = measured::files_of(measurement_file, measurement);
@@ -136,7 +137,11 @@ Experiment read_experiment(const fs::path& measurement_file,
     }
     experiment.runs.push_back({run, measured::read_run(measurement_file, run)});
   }
-  auto findings = measured::check_records(experiment.runs, compare::described_arms(experiment.arm));
+  auto findings =
+      measured::check_records(experiment.runs, compare::described_arms(experiment.arm), deadline);
+  if (arm::is_over(deadline)) {
+    experiment.notices.emplace_back("the time limit left no time for all data checks");
+  }
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     measured::MeasuredRun& read = experiment.runs[r];
     const std::string file = measured::beside(measurement_file, read.run.file).string();

@@ -62,7 +62,7 @@ Diagnosed diagnose_file(const std::filesystem::path& path, const Texts& effects,
                                            .spelled = as_argument};
   return long_call("diagnosis", progress, [&](CallState& state) {
     const auto deadline = diagnose::deadline_of(request, begun);
-    Diagnosed diagnosed{diagnose::read_experiment(path, request), {}};
+    Diagnosed diagnosed{diagnose::read_experiment(path, request, deadline), {}};
     diagnosed.diagnosis =
         diagnose::diagnose(diagnosed.experiment, request, deadline,
                            [&](std::string_view, double done) { return state.reach(done); });

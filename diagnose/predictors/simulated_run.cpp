@@ -5,7 +5,9 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <variant>
 #include <vector>
 
@@ -28,7 +30,8 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
                                   const std::vector<double>& torque_N_m,
                                   const InitialStates& initial, const Eigen::MatrixXd& from_known,
                                   const Eigen::VectorXd& measured,
-                                  const Eigen::VectorXd& deviations) {
+                                  const Eigen::VectorXd& deviations,
+                                  const arm::Deadline& deadline) {
   // Where friction holds the hub the linear derivatives are far off: twenty short steps and more.
   constexpr int kSteps = 30;
   constexpr double kShorter = 0.3;
@@ -48,6 +51,7 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
   Eigen::MatrixXd made = from_known;
   double length = 1.0;
   for (int step = 0; step < kSteps && length > kShortest; ++step) {
+    arm::require_time(deadline);
     const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
     const Eigen::MatrixXd there =
         simulation.readings(torque_N_m, initial.known + initial.unknown * further);
@@ -103,26 +107,41 @@ Eigen::VectorXd rigid_motion(const response::ArmSimulator& simulation,
   return simulation.rigid_states() * Eigen::Vector2d(hub(0) - before_s * hub(1), hub(1));
 }
 
+/// Torques as a log has them that is so many samples late, straight between two samples; 0 before
+/// the first.
+Eigen::VectorXd logged(const std::vector<double>& torque_N_m, double late_samples) {
+  const double whole = std::floor(late_samples);
+  const double part = late_samples - whole;
+  const auto at = [&](Index k) { return k < 0 ? 0.0 : torque_N_m[static_cast<std::size_t>(k)]; };
+  Eigen::VectorXd made(std::ssize(torque_N_m));
+  for (Index k = 0; k < made.size(); ++k) {
+    const Index later = k - static_cast<Index>(whole);
+    made(k) = (1.0 - part) * at(later) + part * at(later - 1);
+  }
+  return made;
+}
+
 Eigen::VectorXd in_closed_loop(const response::ArmSimulator& simulation,
-                               const measured::MeasuredRun& run) {
+                               const measured::MeasuredRun& run, double logged_late_s) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const bool is_free = run.run.initial == measured::InitialState::free;
   const Eigen::VectorXd initial =
       is_free ? rigid_motion(simulation, record, first_hub_motion(record)) : Eigen::VectorXd();
   const auto made =
       simulation.closed_loop_readings({*run.run.controller, record.reference.values}, initial);
-  const auto samples = std::ssize(made.torque_N_m);
-  Eigen::VectorXd shown(made.readings.size() + samples);
-  shown << made.readings.reshaped(), Eigen::VectorXd::Map(made.torque_N_m.data(), samples);
+  Eigen::VectorXd shown(made.readings.size() + std::ssize(made.torque_N_m));
+  shown << made.readings.reshaped(),
+      logged(made.torque_N_m, logged_late_s / measured::sampling_period_s(record));
   return shown;
 }
 
 }  // namespace
 
 Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
-                              const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
-                              const Eigen::VectorXd& deviations) {
-  if (run.run.controller) return in_closed_loop(simulation, run);
+                              const measured::MeasuredRun& run, double logged_late_s,
+                              const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations,
+                              const arm::Deadline& deadline) {
+  if (run.run.controller) return in_closed_loop(simulation, run, logged_late_s);
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& torque_N_m = record.torque_N_m;
   if (run.run.initial != measured::InitialState::free) {
@@ -131,13 +150,14 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
   const InitialStates initial{rigid_motion(simulation, record, first_hub_motion(record)),
                               simulation.resolved_states()};
   const Eigen::MatrixXd readings = simulation.readings(torque_N_m, initial.known);
-  return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations)
+  return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations,
+                           deadline)
       .reshaped();
 }
 
 Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const PrescribedMotion& motion,
                            const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
-                           const Eigen::VectorXd& deviations) {
+                           const Eigen::VectorXd& deviations, const arm::Deadline& deadline) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& command = motion.acceleration_rad_per_s2;
   const Eigen::Vector2d hub(motion.angle_rad, motion.velocity_rad_per_s);
@@ -145,7 +165,8 @@ Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const Presc
                               simulation.resolved_states_of_resting_hub()};
   Eigen::MatrixXd readings = simulation.readings(command, initial.known);
   if (run.run.initial == measured::InitialState::free) {
-    readings = from_likely_state(simulation, command, initial, readings, measured, deviations);
+    readings =
+        from_likely_state(simulation, command, initial, readings, measured, deviations, deadline);
   }
   return readings.reshaped();
 }

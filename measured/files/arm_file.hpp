@@ -2,11 +2,15 @@
 
 #include "arm/arm.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace flexarm::measured {
+
+/// The largest arm file that is read.
+inline constexpr std::size_t kLargestArmFile_bytes = std::size_t{1} << 20U;
 
 /// Reads an arm file (TOML, docs/formats.md) whose effects are among `vocabulary`.
 ///

@@ -5,9 +5,9 @@
 #include "arm/range.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/record_constants.hpp"
-#include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -206,8 +206,8 @@ FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& 
 }
 
 FrequencyRecord read_frequency_record(const std::filesystem::path& path) {
-  return parse_frequency_record(measured::read_text_file(path, kLargestRecord_bytes),
-                                arm::shown(path.string()));
+  return read_file_as(FileKind::frequency_record, path, kLargestRecord_bytes,
+                      parse_frequency_record);
 }
 
 std::string format_frequency_record(const FrequencyRecord& record) {

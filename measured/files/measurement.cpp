@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/controller_keys.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/payload_keys.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/time_record.hpp"
@@ -46,8 +47,8 @@ std::string_view word_of(const Table& table, T value) {
 }
 
 const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
-const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
-                                           "torque_hold", "payload", "initial", "columns",
+const std::vector<std::string> kRunKeys = {"id",          "kind",      "file",    "purpose",
+                                           "torque_hold", "payload",   "initial", "columns",
                                            "reference",   "controller"};
 const std::vector<std::string> kColumnKeys = {"name", "expression", "unit", "scale"};
 
@@ -181,8 +182,10 @@ class MeasurementReader : measured::TomlFaults {
     run.reference = of_sensor == run.columns.end() ? ColumnMapping() : of_sensor->second;
     run.reference->name.clear();
     run.reference->expression.clear();
-    read_text(kKey, node, "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
-              "\"deg\" }", run.reference->name);
+    read_text(kKey, node,
+              "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
+              "\"deg\" }",
+              run.reference->name);
   }
 
   void read_id(const toml::node& node, Run& run) {
@@ -317,8 +320,7 @@ Measurement parse_measurement(std::string_view toml, const std::string& file_nam
 }
 
 Measurement read_measurement(const std::filesystem::path& path) {
-  return parse_measurement(measured::read_text_file(path, kLargestMeasurement_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::measurement, path, kLargestMeasurement_bytes, parse_measurement);
 }
 
 int line_of_run_key(const std::filesystem::path& measurement_file, const std::string& run_id,

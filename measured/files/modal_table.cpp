@@ -5,8 +5,8 @@
 #include "arm/range.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
-#include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -210,8 +210,7 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
 }
 
 ModalTable read_modal_table(const std::filesystem::path& path) {
-  return parse_modal_table(measured::read_text_file(path, kLargestModalTable_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::modal_table, path, kLargestModalTable_bytes, parse_modal_table);
 }
 
 std::string format_modal_table(const ModalTable& table) {

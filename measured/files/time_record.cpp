@@ -4,9 +4,9 @@
 #include "arm/nearest_name.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/record_constants.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/time_grid.hpp"
 #include "measured/files/unit.hpp"
 
@@ -93,8 +93,7 @@ void take_unit(Column& column, std::optional<std::string_view> given,
   const std::string& name = column.name;
   if (!given) {
     throw InputError(fmt::format("column {}: unit missing; write {} [{}]; allowed: {}",
-                                 arm::shown(name), name, si_units.front(),
-                                 fmt::join(names, ", ")));
+                                 arm::shown(name), name, si_units.front(), fmt::join(names, ", ")));
   }
   throw InputError(fmt::format("column {}: unit {} unknown{}; allowed: {}", name,
                                arm::shown(*given), arm::did_you_mean(*given, names),
@@ -257,13 +256,14 @@ TimeRecord parse_time_record(std::string_view csv, const std::string& file_name)
 }
 
 TimeRecord read_time_record(const std::filesystem::path& path) {
-  return parse_time_record(measured::read_text_file(path, kLargestRecord_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::time_record, path, kLargestRecord_bytes, parse_time_record);
 }
 
 TimeRecord read_reference(const std::filesystem::path& path) {
-  TimeRecord record = parse_record(measured::read_text_file(path, kLargestRecord_bytes),
-                                   arm::shown(path.string()), kOfReference);
+  TimeRecord record = read_file_as(FileKind::time_record, path, kLargestRecord_bytes,
+                                   [](const std::string& text, const std::string& file_name) {
+                                     return parse_record(text, file_name, kOfReference);
+                                   });
   record.torque_N_m.assign(record.time_s.size(), 0.0);
   record.channels.clear();
   return record;

@@ -68,7 +68,7 @@ std::string usage(const CommandDescription& command, bool is_program) {
       is_program ? "flexarm COMMAND [OPTIONS]" : fmt::format("flexarm {} [OPTIONS]", command.name);
   for (const auto& option : command.options) {
     if (!option.is_positional) continue;
-    const std::string name = option.names.front() + (option.is_list ? "..." : "");
+    const std::string name = option.names.front() + (option.is_repeatable ? "..." : "");
     line += option.is_required ? " " + name : fmt::format(" [{}]", name);
   }
   return fmt::format("Usage: {}\n", line);

@@ -40,14 +40,18 @@ CLI::Option* add_list(CLI::App& parser, const std::string& name, std::vector<Ite
 
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
                              std::vector<double>& numbers, const std::string& help) {
-  return add_list(parser, name, numbers, help, arm::number_list)->type_name("FLOAT");
+  return add_list(parser, name, numbers, help, arm::number_list)->type_name("FLOAT,");
 }
 
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
                              std::vector<std::string>& words, const std::string& help) {
-  CLI::Option* option = add_list(parser, name, words, help, arm::list_items);
+  CLI::Option* option = add_list(parser, name, words, help, arm::list_items)->type_name("TEXT,");
   if (!words.empty()) option->default_str(fmt::format("{}", fmt::join(words, ",")));
   return option;
+}
+
+bool is_list_option(const CLI::Option& option) {
+  return option.get_delimiter() == ',' || option.get_type_name().ends_with(',');
 }
 
 }  // namespace flexarm::app

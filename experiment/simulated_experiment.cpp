@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
 #include "response/time/step_check.hpp"
 #include "response/time/time_model.hpp"
@@ -37,6 +38,7 @@ struct PayloadModel {
 /// Models by payload: one is often that of several runs.
 class Models {
  public:
+  /// With the number of modes of `experiment.truncation`.
   Models(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
          const ExperimentOptions& options, SimulatedExperiment& experiment)
       : arm_(arm), sensors_(sensors), options_(options), experiment_(experiment) {}
@@ -47,14 +49,15 @@ class Models {
     arm::Arm loaded = arm_;
     loaded.payload = payload;
     PayloadModel made{payload, response::take_apart(loaded), {}};
+    const int modes = experiment_.truncation.modes;
     const auto chosen = options_.formulation.make(
-        made.parts.linear, options_.modes + (options_.static_correction ? 1 : 0));
-    made.model = response::time_model(chosen.formulation, made.parts, options_.modes, sensors_,
+        made.parts.linear, modes + (options_.static_correction ? 1 : 0));
+    made.model = response::time_model(chosen.formulation, made.parts, modes, sensors_,
                                       options_.static_correction);
     experiment_.model = chosen.name;
     experiment_.settings = chosen.settings;
     experiment_.degrees_of_freedom = response::degrees_of_freedom(chosen.formulation);
-    experiment_.modes = std::min(options_.modes, static_cast<int>(made.model.modes.size()) - 1);
+    experiment_.modes = std::min(modes, static_cast<int>(made.model.modes.size()) - 1);
     if (experiment_.degrees_of_freedom > 0) {
       experiment_.modes = std::min(experiment_.modes, experiment_.degrees_of_freedom - 1);
     }
@@ -169,11 +172,90 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
   return run;
 }
 
+/// The torque of a closed loop, which depends on the model, by a model of few modes.
+std::vector<double> torque_in_loop(const PlannedRun& plan, const arm::Arm& loaded,
+                                   const std::vector<arm::Sensor>& sensors, double period_s) {
+  constexpr int kModes = 10;
+  const ArmParts parts = response::take_apart(loaded);
+  const auto model = response::time_model(response::formulation_of_fit(loaded), parts, kModes, sensors);
+  return response::ArmSimulator(model, parts, sensors,
+                                response::options_of_fit(period_s, response::TorqueHold::zero))
+      .closed_loop_readings({*plan.controller, plan.reference.values})
+      .torque_N_m;
+}
+
+/// The truncation of one run with that number of modes, or a chosen one.
+response::Truncation truncation_of(const PlannedRun& plan, const arm::Arm& loaded,
+                                   const std::vector<arm::Sensor>& sensors,
+                                   const ExperimentOptions& options,
+                                   const response::ModeCount& count) {
+  if (plan.stepped_sine) {
+    return response::truncation_in_frequency(response::formulation_of_fit(loaded), sensors,
+                                             frequencies_Hz(*plan.stepped_sine),
+                                             options.static_correction, count);
+  }
+  if (plan.time_s.size() < 2) return {count.given.value_or(1), std::vector<double>(sensors.size())};
+  const double period_s = (plan.time_s.back() - plan.time_s.front()) /
+                          static_cast<double>(plan.time_s.size() - 1);
+  const auto torque_N_m = plan.controller ? torque_in_loop(plan, loaded, sensors, period_s)
+                                          : plan.torque.torque_N_m;
+  return response::truncation_in_time(loaded, sensors, torque_N_m, period_s, options.hold, count);
+}
+
+/// Modes with which all runs take some seconds: a sample costs as the square of the states, and with
+/// dry friction or forces along the beam several times that.
+int affordable_modes(const arm::Arm& arm, const std::vector<PlannedRun>& runs) {
+  constexpr double kProducts = 4e9;
+  constexpr double kOfNonlinearArm = 1e9;
+  constexpr double kLeast = 40.0;
+  double samples = 1.0;
+  for (const PlannedRun& run : runs) samples += static_cast<double>(run.time_s.size());
+  const ArmParts parts = response::take_apart(arm);
+  const bool is_linear =
+      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
+  const double states = std::sqrt((is_linear ? kProducts : kOfNonlinearArm) / samples);
+  return static_cast<int>(
+      std::clamp(states / 2.0, kLeast, static_cast<double>(response::kMostChosenModes)));
+}
+
+/// The number of modes for all runs, and the largest errors with it.
+response::Truncation truncation_of(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
+                                   const std::vector<arm::Sensor>& sensors,
+                                   const ExperimentOptions& options) {
+  response::Truncation all{options.modes.value_or(0), std::vector<double>(sensors.size(), 0.0),
+                           !options.modes};
+  const auto judge = [&](const response::ModeCount& count) {
+    for (const PlannedRun& run : runs) {
+      arm::Arm loaded = arm;
+      loaded.payload = run.payload.value_or(arm.payload);
+      try {
+        const auto one = truncation_of(run, loaded, sensors, options, count);
+        all.modes = std::max(all.modes, one.modes);
+        for (std::size_t k = 0; k < sensors.size(); ++k) {
+          all.errors[k] = std::max(all.errors[k], one.errors[k]);
+        }
+      } catch (const arm::InputError& error) {
+        throw arm::InputError(fmt::format("{}: {}", run.id, error.what()), error.key());
+      }
+    }
+  };
+  if (!options.modes) {
+    judge({.most = std::min(response::most_chosen_modes(options.formulation.name),
+                            affordable_modes(arm, runs))});
+  }
+  if (!options.modes && runs.size() == 1) return all;
+  all.errors.assign(sensors.size(), 0.0);
+  judge({.given = all.modes});
+  return all;
+}
+
 }  // namespace
 
 void require_valid(const ExperimentOptions& options, const std::vector<PlannedRun>& plan,
                    const std::vector<ChosenSensor>& sensors, const arm::OptionSpelling& spelled) {
-  if (options.modes < 1) throw arm::out_of_range(spelled("modes"), options.modes, "", "1 or more");
+  if (options.modes && *options.modes < 1) {
+    throw arm::out_of_range(spelled("modes"), *options.modes, "", "1 or more");
+  }
   if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
     throw arm::out_of_range(spelled("substeps"), options.substeps, "",
                             fmt::format("from 0 to {}", response::kMostSubsteps));
@@ -218,6 +300,8 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
                                         const ProgressOf& progress_of) {
   const auto sensors = sensors_of(chosen);
   SimulatedExperiment experiment;
+  experiment.sensors = sensors;
+  experiment.truncation = truncation_of(arm, runs, sensors, options);
   Models models(arm, sensors, options, experiment);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& plan = runs[i];

@@ -147,17 +147,18 @@ void add_base(py::module_& module) {
           "and, with a beam, tip_acceleration.")
       .def(
           "state_space",
-          [](const Formulation& self, const py::object& sensors, int modes,
-             bool static_correction) {
+          [](const Formulation& self, const py::object& sensors,
+             std::optional<int> modes, bool static_correction) {
             const auto chosen = sensors_or_default(sensors, self.arm);
             const py::gil_scoped_release without_lock;
             return state_space_of(self, chosen, modes, static_correction);
           },
-          py::arg("sensors") = py::none(), py::kw_only(), py::arg("modes") = kModes,
+          py::arg("sensors") = py::none(), py::kw_only(), py::arg("modes") = py::none(),
           py::arg("static_correction") = true,
           "Commanded torque [N m] to sensors as StateSpace, of the lowest mode and `modes` "
           "flexible "
-          "ones, with a residual mode for the omitted ones where `static_correction` asks for it.")
+          "ones, with a residual mode for the omitted ones where `static_correction` asks for it. "
+          "modes=None: as many as keep truncation_errors below 1e-4, 160 at most.")
       .def("__repr__", [](const py::object& self) {
         const auto& formulation = self.cast<const Formulation&>();
         return fmt::format(

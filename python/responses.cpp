@@ -39,9 +39,17 @@ response::FrequencyResponse frequency_response_of(const Formulation& formulation
 }
 
 response::StateSpace state_space_of(const Formulation& formulation,
-                                    const std::vector<arm::Sensor>& sensors, int modes,
-                                    bool static_correction) {
-  arm::ModalModel model = response::modal_model(formulation.formulation, modes, sensors, {});
+                                    const std::vector<arm::Sensor>& sensors,
+                                    std::optional<int> modes, bool static_correction) {
+  response::ResponseOptions options;
+  options.sensors = sensors;
+  const auto band = response::frequency_range(formulation.formulation, options);
+  const auto truncation = response::truncation_in_frequency(
+      formulation.formulation, sensors,
+      response::judged_frequencies_Hz(band.from_Hz, band.to_Hz), static_correction,
+      {modes, response::most_chosen_modes(response::name(formulation.formulation))});
+  arm::ModalModel model =
+      response::modal_model(formulation.formulation, truncation.modes, sensors, {});
   if (static_correction) {
     model = response::with_residual_mode(formulation.formulation, model, sensors);
   }
@@ -49,7 +57,9 @@ response::StateSpace state_space_of(const Formulation& formulation,
   std::erase_if(chain.sensor_chains, [&](const response::SensorChain& one) {
     return std::ranges::find(sensors, one.sensor) == sensors.end();
   });
-  return response::state_space(model, sensors, chain);
+  response::StateSpace system = response::state_space(model, sensors, chain);
+  system.truncation_errors = truncation.errors;
+  return system;
 }
 
 namespace {
@@ -139,6 +149,9 @@ void add_state_space(py::module_& module) {
                 std::vector<double>(self.output_delay_s.begin(), self.output_delay_s.end()));
           },
           "Delays of the sensors [s], array (sensors,).")
+      .def_readonly("truncation_errors", &StateSpace::truncation_errors,
+                    "Of each sensor, from well below the first pole to above the fifth: root mean "
+                    "square of |G_ss - G|/|G|, list of float.")
       .def_readonly("states", &StateSpace::states,
                     "Names of the states: q_0, q_0', q_1, ..., 'hub torque', 'reading of ...'.")
       .def_property_readonly(

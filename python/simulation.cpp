@@ -87,7 +87,10 @@ Settings settings_of(const py::kwargs& given) {
   take("degree", options.formulation.degree);
   take("basis", options.formulation.basis);
   take("functions", options.formulation.functions);
-  take("modes", options.modes);
+  known.insert("modes");
+  if (given.contains("modes") && !given["modes"].is_none()) {
+    options.modes = given["modes"].cast<int>();
+  }
   take("static_correction", options.static_correction);
   take("substeps", options.substeps);
   take("check_step", options.check_step);
@@ -224,6 +227,10 @@ void add_experiment(py::module_& module) {
           "model", [](const Experiment& self) { return self.simulated.model; },
           "Name of the formulation.")
       .def_property_readonly(
+          "truncation_errors",
+          [](const Experiment& self) { return self.simulated.truncation.errors; },
+          "Estimated truncation error of each sensor relative to its signal, list of float.")
+      .def_property_readonly(
           "modes", [](const Experiment& self) { return self.simulated.modes; },
           "Flexible modes that were kept.")
       .def(
@@ -251,7 +258,7 @@ constexpr const char* kSettings =
     "hub_velocity and, with a beam, tip_acceleration), duration_s (4), sample_time_s (0.0005), "
     "seed (1), noise (standard deviation relative to that of the signal), noise_of and "
     "quantisation (dicts by sensor, in its unit), formulation ('exact_tf') with elements, degree, "
-    "basis and functions, modes (5), static_correction (False), hold ('zero' or 'first'), substeps "
+    "basis and functions, modes (None: as many as keep the truncation error below 1e-4), static_correction (False), hold ('zero' or 'first'), substeps "
     "(0) and check_step (False). progress: a callable of the fraction done, None for a line on a "
     "terminal or in a notebook, False for none. Ctrl-C ends it. Raises InputError.";
 

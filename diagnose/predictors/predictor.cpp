@@ -4,6 +4,7 @@
 #include "diagnose/predictors/predicted_roots.hpp"
 #include "diagnose/predictors/simulated_run.hpp"
 #include "response/frequency/frequency_response.hpp"
+#include "response/truncation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -327,6 +328,28 @@ std::vector<double> errors_of_motion(const Experiment& experiment, const Observa
   return made;
 }
 
+/// `choice` with the errors of modes beyond kMostModes, too.
+ModeChoice with_truncation(const Experiment& experiment, const Observations& observations,
+                           ModeChoice choice) {
+  if (is_driven_by_motion(experiment)) return choice;
+  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    const auto& [run, data] = experiment.runs[r];
+    if (run.kind != measured::RunKind::time) continue;
+    const auto& record = std::get<measured::TimeRecord>(data);
+    arm::Arm with_payload = experiment.arm;
+    with_payload.payload = run.payload.value_or(experiment.arm.payload);
+    const auto truncation = response::truncation_in_time(
+        with_payload, sensors_of(record), record.torque_N_m, measured::sampling_period_s(record),
+        simulated_hold(run.torque_hold), {.given = choice.flexible_modes});
+    std::size_t sensor = 0;
+    for (std::size_t c = 0; c < observations.channels.size(); ++c) {
+      if (observations.channels[c].run != r) continue;
+      choice.errors[c] = std::max(choice.errors[c], truncation.errors[sensor++]);
+    }
+  }
+  return choice;
+}
+
 ModeChoice modes_needed(const Experiment& experiment, const Observations& observations,
                         const arm::Deadline& deadline) {
   std::vector<bool> runs;
@@ -367,9 +390,9 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
       choice.errors[c] = error > 0.0 ? error / signal : 0.0;
       is_enough = is_enough && choice.errors[c] <= std::max(kModeError, 0.1 * channel.noise);
     }
-    if (is_enough) return choice;
+    if (is_enough) break;
   }
-  return choice;
+  return with_truncation(experiment, observations, std::move(choice));
 }
 
 }  // namespace flexarm::diagnose

@@ -142,6 +142,7 @@ struct ModeChoice {
 
 /// The fewest modes with which the simulated runs are within `kModeError` of a signal's deviation,
 /// or a tenth of its noise if that is more, of those with `kMostModes`; these where none suffice.
+/// The errors are those, or response::truncation_in_time where that is more.
 /// After the deadline kFewestModes, without errors.
 ModeChoice modes_needed(const Experiment& experiment, const Observations& observations,
                         const arm::Deadline& deadline = {});

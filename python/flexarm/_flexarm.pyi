@@ -266,6 +266,8 @@ class StateSpace:
     @property
     def output_delay_s(self) -> _Floats: ...
     @property
+    def truncation_errors(self) -> list[float]: ...
+    @property
     def states(self) -> list[str]: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
@@ -307,7 +309,7 @@ class Formulation:
         modes: int = ...,
     ) -> FrequencyResponse: ...
     def state_space(
-        self, sensors: _Sensors | None = ..., *, modes: int = ..., static_correction: bool = ...
+        self, sensors: _Sensors | None = ..., *, modes: int | None = ..., static_correction: bool = ...
     ) -> StateSpace: ...
 
 class ExactTransferFunction(Formulation):
@@ -444,6 +446,8 @@ class SimulatedExperiment:
     def stepped_runs(self) -> list[SteppedSineRun]: ...
     @property
     def model(self) -> str: ...
+    @property
+    def truncation_errors(self) -> list[float]: ...
     @property
     def modes(self) -> int: ...
     def write(
@@ -730,7 +734,7 @@ def simulate(
     degree: int | None = ...,
     basis: str | None = ...,
     functions: int | None = ...,
-    modes: int = ...,
+    modes: int | None = ...,
     static_correction: bool = ...,
     hold: str = ...,
     substeps: int = ...,
@@ -755,7 +759,7 @@ def simulate_experiment(
     degree: int | None = ...,
     basis: str | None = ...,
     functions: int | None = ...,
-    modes: int = ...,
+    modes: int | None = ...,
     static_correction: bool = ...,
     hold: str = ...,
     substeps: int = ...,

@@ -1,6 +1,7 @@
 #include "report/json/response_json.hpp"
 
 #include "report/json/arm_json.hpp"
+#include "report/tables/truncation_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -106,6 +107,9 @@ Json response_json(const response::ResponseStudy& study) {
           {"poles", poles_json(study)},
           {"states", study.state_space ? Json(study.state_space->states) : Json::array()},
           {"static_correction", study.residual_mode},
+          {"truncation", study.truncation
+                             ? truncation_json(*study.truncation, study.response.sensors)
+                             : Json(nullptr)},
           {"frequency_Hz", study.response.frequency_Hz},
           {"sensors", std::move(sensors)}};
 }

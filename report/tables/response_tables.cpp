@@ -242,7 +242,7 @@ Table state_space_table(const response::ResponseStudy& study) {
 
 std::string describe_state_space(const response::ResponseStudy& study) {
   return fmt::format("{} states, {} flexible modes{}", study.state_space->a.rows(),
-                     study.modes.modes.size() - 1,
+                     study.truncation->modes,
                      study.residual_mode ? " and a static correction" : "");
 }
 

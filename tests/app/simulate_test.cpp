@@ -44,10 +44,12 @@ TEST_F(Simulate, WithoutArgumentsItIsThePapersArmAndABangBang) {
   const Ended ended = run({"simulate"});
   EXPECT_EQ(ended.status, 0);
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("aluminium link"), HasSubstr("\nby exact_tf, 5 flex"),
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("aluminium link"), HasSubstr("\nby exact_tf, 160 flex"),
+                                  HasSubstr("\nTruncation: 160 flexible modes chosen"),
                                   HasSubstr("bang-bang, amplitude 0.3 N"),
                                   HasSubstr("tip_acceleration"), HasSubstr("\nEnergy balance: "),
-                                  Not(HasSubstr("note:")), HasSubstr("\nnext: ")));
+                                  HasSubstr("\nnote: modes above 1000 Hz"),
+                                  HasSubstr("\nnext: ")));
   EXPECT_TRUE(names_in().empty());
 }
 
@@ -166,11 +168,31 @@ TEST_F(Simulate, TheStepErrorIsToldOnRequest) {
   }
 }
 
-TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaid) {
-  const Ended ended = run_short({"--modes", "8"});
+TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaidOnce) {
+  const Ended ended =
+      run_short({"--modes", "8", "--excitation", "bang-bang", "--excitation", "step"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output,
-              AllOf(HasSubstr("note: bang-bang: highest mode"), HasSubstr("the mode is aliased")));
+  const auto first = ended.output.find("note: modes above 250 Hz, half the sampling frequency");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(ended.output.find("half the sampling frequency", first + 40), std::string::npos);
+}
+
+TEST_F(Simulate, GivenModesAreSaidToTruncateWithTheirError) {
+  const Ended given = run_short({"--modes", "5", "--json", "out.json"});
+  EXPECT_THAT(given.output, AllOf(HasSubstr("\nTruncation: 5 flexible modes given; estimated error"),
+                                  HasSubstr("the model is\ntruncated")));
+  const Json truncation = Json::parse(text_of("out.json"))["truncation"];
+  EXPECT_FALSE(truncation["chosen"].get<bool>());
+  EXPECT_EQ(truncation["modes"], 5);
+  EXPECT_EQ(truncation["errors"].size(), 3U);
+  EXPECT_GT(truncation["errors"][2]["error"].get<double>(), truncation["tolerance"].get<double>());
+  write("rig.toml", kRigWithFriction);
+  EXPECT_EQ(run_short({"rig.toml", "--json", "out.json"}).status, 0);
+  const Json chosen = Json::parse(text_of("out.json"))["truncation"];
+  EXPECT_TRUE(chosen["chosen"].get<bool>());
+  for (const Json& sensor : chosen["errors"]) {
+    EXPECT_LE(sensor["error"].get<double>(), chosen["tolerance"].get<double>());
+  }
 }
 
 TEST_F(Simulate, EnergyIsBalanced) {

@@ -1,0 +1,193 @@
+#include "response/truncation.hpp"
+
+#include "arm/rigid_hub.hpp"
+#include "response/formulation_maker.hpp"
+#include "response/frequency/frequency_response.hpp"
+#include "response/frequency/frequency_grid.hpp"
+#include "response/frequency/modal_response.hpp"
+#include "response/residual_mode.hpp"
+#include "response/settings.hpp"
+
+#include <Eigen/Core>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace flexarm::response {
+
+namespace {
+
+using Eigen::Index;
+
+/// One mode under a torque that is linear between samples.
+class ModeStepper {
+ public:
+  ModeStepper(const arm::ModalModel& model, std::size_t i, double period_s)
+      : stiffness_(omega_squared(model, i)),
+        damping_(model.damping_rad_per_s[i * model.modes.size() + i]),
+        force_(model.modes[i].hub_slope / model.modal_mass_kg_m2) {
+    // X = (scale q, q'), torque, and its change over the sample.
+    scale_ = std::max(std::sqrt(std::abs(stiffness_)), 1.0);
+    Eigen::Matrix4d chain = Eigen::Matrix4d::Zero();
+    chain(0, 1) = scale_ * period_s;
+    chain(1, 0) = -stiffness_ / scale_ * period_s;
+    chain(1, 1) = -damping_ * period_s;
+    chain(1, 2) = force_ * period_s;
+    chain(2, 3) = 1.0;
+    step_ = chain.exp();
+  }
+
+  /// q, q' and q'' just after the torque at this sample, `torque_N_m`, has begun to act.
+  std::array<double, 3> at(double torque_N_m) const {
+    const double q = position_ / scale_;
+    return {q, velocity_, force_ * torque_N_m - stiffness_ * q - damping_ * velocity_};
+  }
+
+  void step(double torque_N_m, double change_N_m) {
+    const double position = step_(0, 0) * position_ + step_(0, 1) * velocity_ +
+                            step_(0, 2) * torque_N_m + step_(0, 3) * change_N_m;
+    velocity_ = step_(1, 0) * position_ + step_(1, 1) * velocity_ + step_(1, 2) * torque_N_m +
+                step_(1, 3) * change_N_m;
+    position_ = position;
+  }
+
+ private:
+  double stiffness_;
+  double damping_;
+  double force_;
+  double scale_ = 1.0;
+  double position_ = 0.0;
+  double velocity_ = 0.0;
+  Eigen::Matrix4d step_;
+};
+
+/// Errors of keeping 0, 1, ... flexible modes of `model`: a row a number, a column a sensor.
+Eigen::MatrixXd errors_in_time(const arm::ModalModel& model, std::span<const arm::Sensor> sensors,
+                               std::span<const double> torque_N_m, double period_s,
+                               TorqueHold hold) {
+  const auto modes = static_cast<Index>(model.modes.size());
+  const auto samples = static_cast<Index>(torque_N_m.size());
+  const auto outputs = static_cast<Index>(sensors.size());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(samples, outputs);
+  Eigen::MatrixXd sizes(modes + 1, outputs);
+  sizes.row(modes).setZero();
+  for (Index i = modes; i-- > 0;) {
+    const auto& mode = model.modes[static_cast<std::size_t>(i)];
+    ModeStepper stepper(model, static_cast<std::size_t>(i), period_s);
+    for (Index k = 0; k < samples; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const auto motion = stepper.at(torque_N_m[at]);
+      for (Index j = 0; j < outputs; ++j) {
+        const auto sensor = static_cast<std::size_t>(j);
+        const auto derivatives = static_cast<std::size_t>(arm::derivative_order(sensors[sensor]));
+        sums(k, j) += mode.sensor_values[sensor] * motion[derivatives];
+      }
+      const bool changes = hold == TorqueHold::first && at + 1 < torque_N_m.size();
+      stepper.step(torque_N_m[at], changes ? torque_N_m[at + 1] - torque_N_m[at] : 0.0);
+    }
+    sizes.row(i) = sums.colwise().norm();
+  }
+  // With n flexible modes kept, those from n + 1 on are left out.
+  Eigen::MatrixXd errors = sizes.bottomRows(modes);
+  for (Index j = 0; j < outputs; ++j) {
+    if (sizes(0, j) > 0.0) errors.col(j) /= sizes(0, j);
+  }
+  return errors;
+}
+
+std::vector<double> row_of(const Eigen::MatrixXd& errors, Index row) {
+  const Eigen::VectorXd values = errors.row(row);
+  return {values.begin(), values.end()};
+}
+
+bool is_within(const Eigen::MatrixXd& errors, Index row) {
+  return errors.cols() == 0 || errors.row(row).maxCoeff() <= kTruncationTolerance;
+}
+
+/// One of 1, 2, 3, 4, 6, 8, 12, 16, 24, ...: residual modes take some milliseconds each.
+int next_count(int count) {
+  if (count < 4) return count + 1;
+  int power = 1;
+  while (2 * power <= count) power *= 2;
+  return count == power ? count + power / 2 : 2 * power;
+}
+
+}  // namespace
+
+double Truncation::largest_error() const {
+  return errors.empty() ? 0.0 : *std::ranges::max_element(errors);
+}
+
+int most_chosen_modes(std::string_view formulation) {
+  return formulation == exact_tf::ExactArm::kName ? kMostChosenModes
+                                                  : std::min(kMostChosenModes, kMostRoots - 1);
+}
+
+Truncation truncation_in_time(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
+                              std::span<const double> torque_N_m, double period_s, TorqueHold hold,
+                              const ModeCount& count) {
+  const AnyFormulation formulation = formulation_of_fit(arm);
+  Truncation made{count.given.value_or(1), std::vector<double>(sensors.size(), 0.0), !count.given};
+  if (!arm::has_beam(arm_of(formulation))) return made;
+  const auto judged = torque_N_m.first(std::min(torque_N_m.size(), kMostJudgedSamples));
+  constexpr int kFirst = 32;  // modes
+  const int most_known = 2 * std::max(kFirst, count.given.value_or(count.most));
+  for (int known = count.given ? most_known : kFirst;; known = std::min(2 * known, most_known)) {
+    const auto model = modal_model(formulation, known, sensors, {});
+    const Eigen::MatrixXd errors = errors_in_time(model, sensors, judged, period_s, hold);
+    const int last = static_cast<int>(errors.rows()) - 1;
+    int modes = count.given.value_or(kFewestChosenModes);
+    while (!count.given && modes < std::min(count.most, last) && !is_within(errors, modes)) {
+      ++modes;
+    }
+    const bool is_known = 2 * modes <= known || known > last;
+    if (!count.given && !is_known) continue;
+    made.modes = std::max(1, std::min(modes, count.given ? modes : last));
+    made.errors = made.modes > last ? made.errors : row_of(errors, made.modes);
+    return made;
+  }
+}
+
+Truncation truncation_in_frequency(const AnyFormulation& formulation,
+                                   std::span<const arm::Sensor> sensors,
+                                   std::span<const double> frequency_Hz, bool static_correction,
+                                   const ModeCount& count) {
+  Truncation made{count.given.value_or(1), std::vector<double>(sensors.size(), 0.0), !count.given};
+  if (!arm::has_beam(arm_of(formulation))) return made;
+  std::vector<std::vector<std::complex<double>>> whole;
+  for (const double frequency : frequency_Hz) {
+    whole.push_back(transfer_functions(formulation, sensors, on_imaginary_axis(frequency)));
+  }
+  for (int modes = count.given.value_or(kFewestChosenModes);;
+       modes = std::min(next_count(modes), count.most)) {
+    arm::ModalModel model = modal_model(formulation, modes, sensors, {});
+    const bool is_last = static_cast<int>(model.modes.size()) - 1 < modes;
+    if (static_correction) model = with_residual_mode(formulation, model, sensors);
+    std::vector<double> sums(sensors.size(), 0.0);
+    std::vector<double> counted(sensors.size(), 0.0);
+    for (std::size_t f = 0; f < whole.size(); ++f) {
+      const auto at = modal_response(model, sensors, on_imaginary_axis(frequency_Hz[f]));
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const double error = std::abs(at[k] - whole[f][k]) / std::abs(whole[f][k]);
+        if (!std::isfinite(error)) continue;
+        sums[k] += error * error;
+        counted[k] += 1.0;
+      }
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      made.errors[k] = counted[k] > 0.0 ? std::sqrt(sums[k] / counted[k]) : 0.0;
+    }
+    made.modes = modes;
+    if (count.given || is_last || modes >= count.most || made.is_within_tolerance()) return made;
+  }
+}
+
+std::vector<double> judged_frequencies_Hz(double from_Hz, double to_Hz) {
+  constexpr int kPoints = 60;
+  return logarithmic_frequencies({.from_Hz = from_Hz, .to_Hz = to_Hz, .points = kPoints});
+}
+
+}  // namespace flexarm::response

@@ -8,8 +8,10 @@
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
+#include "arm/input_error.hpp"
 #include "arm/rigid_hub.hpp"
 #include "compare/comparison.hpp"
+#include "compare/measured_verdict.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/comparison_plots.hpp"
 #include "report/json/comparison_json.hpp"
@@ -27,6 +29,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -83,7 +86,8 @@ std::vector<compare::Comparison> compare_with_progress(const std::vector<arm::Ar
 /// What was measured beside the models, and how far off it is.
 std::string measured_text(const compare::Comparison& comparison,
                           const compare::MeasuredComparison& measured) {
-  std::string text = screen_table(report::measured_table(measured.rows, comparison.subjects), 3) +
+  std::string text = screen_table(report::measured_runs_table(measured.runs)) +
+                     screen_table(report::measured_table(measured.rows, comparison.subjects), 3) +
                      screen_table(report::measured_damping_table(measured.rows), 2);
   const std::string summary = report::measured_summary(measured.rows);
   if (!summary.empty()) text += screen_paragraph(summary) + "\n";
@@ -111,16 +115,30 @@ std::string details_text(const compare::Comparison& comparison, bool full) {
          screen_table(report::responses_table(comparison));
 }
 
-std::string verdict_paragraph(const compare::Comparison& comparison) {
-  const std::string text = screen_paragraph(report::verdict_line(comparison));
-  return comparison.verdict.agree ? toned(text, "agree", Tone::good)
+/// The verdict on the measurement, where there is one, before that on the formulations.
+std::string verdict_paragraphs(const compare::Comparison& comparison,
+                               const compare::MeasuredComparison& measured) {
+  const auto verdict = compare::judge(measured);
+  const bool is_measured = verdict.agreement != compare::MeasuredAgreement::none;
+  std::string text = screen_paragraph(report::verdict_line(comparison, is_measured));
+  text = comparison.verdict.agree ? (is_measured ? text : toned(text, "agree", Tone::good))
                                   : toned(text, "DISAGREE", Tone::bad);
+  if (!is_measured) return text;
+  const std::string first = screen_paragraph(report::measured_verdict_line(verdict));
+  switch (verdict.agreement) {
+    case compare::MeasuredAgreement::agrees:
+      return toned(first, "agrees", Tone::good) + text;
+    case compare::MeasuredAgreement::differs:
+      return toned(first, "DIFFERS", Tone::bad) + text;
+    default:
+      return first + text;
+  }
 }
 
 std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comparison,
                             const compare::MeasuredComparison& measured,
                             const CompareArguments& arguments) {
-  std::string text = verdict_paragraph(comparison) + "\n";
+  std::string text = verdict_paragraphs(comparison, measured) + "\n";
   text += screen_rows(report::disagreements_table(comparison), kScreenRows, "--verbose");
   text += describe(comparison.arm) + left_out_of_roots(arm) + "\n";
   text += measured_text(comparison, measured);
@@ -147,6 +165,13 @@ void add_files(const fs::path& folder, const compare::Comparison& comparison,
   write_csv("responses.csv", report::responses_listing(comparison));
   if (!measured.rows.empty()) {
     write_csv("measured.csv", report::measured_table(measured.rows, comparison.subjects));
+  }
+  if (!measured.runs.empty()) {
+    write_csv("measured-runs.csv", report::measured_runs_table(measured.runs));
+    for (const auto& run : measured.runs) {
+      files.push_back({folder / ("overlay-" + run.run + ".csv"),
+                       report::to_csv(report::measured_run_listing(run))});
+    }
   }
   const auto damping = report::measured_damping_table(measured.rows);
   if (!damping.rows.empty()) write_csv("measured-damping.csv", damping);
@@ -188,6 +213,18 @@ int run_compare(CompareArguments arguments) {
                             ? MeasuredFile{}
                             : read_measured_file(arguments.measured_file);
   const auto options = options_of(arguments, measured);
+  std::string notes;
+  if (!measured.arm_file.empty()) {
+    std::error_code unreadable;
+    if (arguments.arm.file.empty()) {
+      arguments.arm.file = measured.arm_file.string();
+    } else if (!fs::equivalent(arguments.arm.file, measured.arm_file, unreadable)) {
+      notes = screen_note(fmt::format("the measurement names the arm {}; compared with {}",
+                                      arm::shown(measured.arm_file.string()),
+                                      arm::shown(arguments.arm.file))) +
+              "\n";
+    }
+  }
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) arm::require_beam(arm, "compare");
   for (const auto& [option, output] : {std::pair{"--json", &arguments.output.json_file},
@@ -205,7 +242,7 @@ int run_compare(CompareArguments arguments) {
   for (std::size_t i = 0; i < arms.size(); ++i) {
     const auto& arm = arms[i];
     const auto& comparison = comparisons[i];
-    auto beside = beside_models(measured, arm, comparison);
+    auto beside = beside_models(measured, arm, comparison, arms.size() == 1);
     text += comparison_text(arm, comparison, beside, arguments);
     if (!arguments.output.folder.empty()) {
       add_files(folder_of("", arm, arms.size()), comparison, beside, arguments.output.figures,
@@ -216,7 +253,7 @@ int run_compare(CompareArguments arguments) {
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
   write_json(arguments.output.json_file, report::comparison_json(results));
-  for (const auto& note : measured.notes) text += screen_note(note) + "\n";
+  text += notes;
   if (arguments.report.is_given()) {
     arguments.report.write(
         report::page::compare_page(results, page_origin(subject_of(arguments.arm))));
@@ -237,7 +274,7 @@ Command add_compare(CLI::App& program) {
   parser
       ->add_option("--measured", arguments->measured_file,
                    "Measurement beside the models: modal table or frequency responses (CSV), or "
-                   "measurement.toml with modal and frf runs")
+                   "measurement.toml, whose time runs are simulated; without ARM its own arm")
       ->check(not_empty());
   add_list_option(*parser, "--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05");
   parser->add_option("--poles", arguments->options.poles, "Number of poles and hub zeros")
@@ -261,7 +298,8 @@ Command add_compare(CLI::App& program) {
                    "As --verbose, with the convergence of every root and the root counts");
   add_output_choice(*parser, arguments->output, {"Folder for CSV tables and figures"});
   add_report_choice(*parser, arguments->report);
-  parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
+  parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input. A measurement\n"
+                 "does not change it: its verdict is printed first, and is measured_verdict in JSON.\n" +
                  example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run_compare(*arguments); }};
 }

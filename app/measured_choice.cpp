@@ -5,9 +5,6 @@
 #include "measured/files/foreign_file.hpp"
 #include "measured/files/text_file.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -35,21 +32,11 @@ MeasuredFile runs_of_measurement(const std::string& file) {
   const auto measurement = measured::read_measurement(file);
   MeasuredFile read;
   read.files = measured::files_of(file, measurement);
-  std::vector<std::string> left_out;
+  read.arm_file = measured::beside(file, measurement.arm);
   for (const auto& run : measurement.runs) {
-    if (run.kind == measured::RunKind::time) {
-      left_out.push_back(run.id);
-      continue;
-    }
     read.runs.push_back(run);
     read.data.push_back(measured::read_run(file, run));
   }
-  const std::string remedy = fmt::format(
-      "time runs {} are not compared; flexarm identify {} --out identified estimates their modal "
-      "tables and frequency responses",
-      fmt::join(left_out, ", "), arm::shown(file));
-  if (read.runs.empty()) throw arm::InputError(fmt::format("{}: {}", arm::shown(file), remedy));
-  if (!left_out.empty()) read.notes.push_back(remedy);
   return read;
 }
 
@@ -91,10 +78,15 @@ MeasuredFile read_measured_file(const std::string& file) {
 }
 
 compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
-                                          const compare::Comparison& comparison) {
+                                          const compare::Comparison& comparison, bool alone) {
   compare::MeasuredComparison all;
   for (std::size_t i = 0; i < measured.runs.size(); ++i) {
-    if (!has_payload_of(measured.runs[i], whole)) continue;
+    const bool is_of_arm = has_payload_of(measured.runs[i], whole);
+    if (std::holds_alternative<measured::TimeRecord>(measured.data[i]) && (alone || is_of_arm)) {
+      all.runs.push_back(
+          compare::run_beside_simulation(whole, {measured.runs[i], measured.data[i]}));
+    }
+    if (!is_of_arm) continue;
     if (const auto* table = std::get_if<measured::ModalTable>(&measured.data[i])) {
       auto rows = compare::beside_model(*table, comparison);
       if (auto shapes = compare::correlate_shapes(rows, comparison)) {

@@ -48,6 +48,9 @@ struct RootRow {
   int order = 1;                                                 ///< from 1
   std::vector<std::optional<std::complex<double>>> s_rad_per_s;  ///< [subject]
   std::vector<double> distance;  ///< [subject], relative to the first; NaN where there is no root
+  /// [subject], what the root and its conjugate or mirror image become with the arm's damping;
+  /// empty where there is no root, or none was found. Without entries of an arm without damping.
+  std::vector<std::optional<arm::PolePair>> damped = {};
 };
 
 /// What a subject says of one family beside its roots.

@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "compare/mac.hpp"
 #include "compare/measured.hpp"
+#include "compare/measured_runs.hpp"
 #include "measured/files/frequency_record.hpp"
 
 #include <complex>
@@ -45,7 +46,8 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
 struct MeasuredComparison {
   std::vector<MeasuredRow> rows;
   std::vector<MeasuredResponse> responses;
-  std::vector<ShapeCorrelation> shapes;  ///< one a table that has any
+  std::vector<ShapeCorrelation> shapes;    ///< one a table that has any
+  std::vector<MeasuredTimeRun> runs = {};  ///< of kind `time`
 };
 
 }  // namespace flexarm::compare

@@ -1,8 +1,8 @@
 #include "diagnose/predictors/predictor.hpp"
 
+#include "compare/simulated_run.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
-#include "diagnose/predictors/simulated_run.hpp"
 #include "response/frequency/frequency_response.hpp"
 #include "response/truncation.hpp"
 
@@ -166,11 +166,15 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
     const Eigen::VectorXd measured = observations_.values.segment(first, count);
     const Eigen::VectorXd deviations = weights.segment(first, count);
     const auto& run = experiment_->runs[r];
+    if (!is_driven_by_motion(*experiment_)) {
+      values.segment(first, count) =
+          compare::simulated_run(simulation, run, logged_late_s, measured, deviations, deadline_);
+      return;
+    }
+    const PrescribedMotion& hub = experiment_->motions[r].motion;
     values.segment(first, count) =
-        is_driven_by_motion(*experiment_)
-            ? driven_run(simulation, experiment_->motions[r].motion, run, measured, deviations,
-                         deadline_)
-            : simulated_run(simulation, run, logged_late_s, measured, deviations, deadline_);
+        compare::driven_run(simulation, {hub.angle_rad, hub.velocity_rad_per_s},
+                            hub.acceleration_rad_per_s2, run, measured, deviations, deadline_);
   };
   for_each_time_run(arm, runs, nullptr, simulate);
   predict_other_runs(arm, runs, values);

@@ -1,5 +1,6 @@
 #include "report/json/comparison_json.hpp"
 
+#include "compare/measured_verdict.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
 #include "report/tables/zero_kind.hpp"
@@ -156,6 +157,7 @@ Json measured_json(const std::vector<compare::MeasuredRow>& rows,
                         {"order", row.order ? Json(*row.order) : Json(nullptr)},
                         {"measured_Hz", optional_json(row.measured.frequency_Hz)},
                         {"model_Hz", optional_json(row.model_frequency_Hz)},
+                        {"model_undamped_Hz", optional_json(row.undamped_Hz)},
                         {"error_percent", row.error_percent},
                         {"measured_std_Hz", optional_json(row.measured.frequency_std_Hz)},
                         {"model_std_Hz", optional_json(row.model_std_Hz)},
@@ -233,6 +235,49 @@ Json mac_json(const std::vector<compare::ShapeCorrelation>& shapes) {
   return all;
 }
 
+Json measured_runs_json(const std::vector<compare::MeasuredTimeRun>& runs) {
+  Json all = Json::array();
+  for (const auto& run : runs) {
+    Json entry = {{"run", run.run},
+                  {"payload_mass_kg", run.payload.mass_kg},
+                  {"closed_loop", run.closed_loop},
+                  {"free_start", run.free_start},
+                  {"time_s", run.time_s},
+                  {"channels", Json::array()}};
+    for (const auto& signal : run.signals) {
+      entry["channels"].push_back({{"channel", signal.sensor},
+                                   {"unit", signal.unit},
+                                   {"fit_percent", signal.fit_percent()},
+                                   {"nrmse_percent", signal.nrmse_percent},
+                                   {"measured", signal.measured},
+                                   {"simulated", signal.simulated},
+                                   {"left_out", signal.left_out}});
+    }
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+Json measured_verdict_json(const compare::MeasuredVerdict& verdict) {
+  using enum compare::MeasuredAgreement;
+  if (verdict.agreement == none) return nullptr;
+  const bool is_judged = verdict.agreement != not_judged;
+  const auto judged = [&](double value) { return is_judged ? Json(value) : Json(nullptr); };
+  return {{"verdict", !is_judged                       ? "not judged"
+                      : verdict.agreement == agrees ? "agrees"
+                                                    : "differs"},
+          {"chi_square", judged(verdict.chi_square)},
+          {"degrees_of_freedom", verdict.judged},
+          {"p_value", judged(verdict.p_value)},
+          {"largest_deviation_std", judged(verdict.worst_std)},
+          {"largest_deviation_of", is_judged ? Json(verdict.worst_std_of) : Json(nullptr)},
+          {"largest_difference_percent",
+           verdict.worst_percent_of.empty() ? Json(nullptr) : Json(verdict.worst_percent)},
+          {"largest_difference_of", verdict.worst_percent_of.empty()
+                                        ? Json(nullptr)
+                                        : Json(verdict.worst_percent_of)}};
+}
+
 Json compared_json(const ComparedArm& compared) {
   const auto& comparison = compared.comparison;
   Json findings = Json::array();
@@ -240,6 +285,7 @@ Json compared_json(const ComparedArm& compared) {
   const std::string& alone = comparison.verdict.alone;
   return {
       {"verdict", comparison.verdict.agree ? "agree" : "disagree"},
+      {"measured_verdict", measured_verdict_json(compare::judge(compared.measured))},
       {"worst", finding_json(comparison.verdict.worst)},
       {"alone", alone.empty() ? Json() : Json(alone)},
       {"arm", arm_json(comparison.arm)},
@@ -252,6 +298,7 @@ Json compared_json(const ComparedArm& compared) {
       {"responses", responses_json(comparison)},
       {"measured", measured_json(compared.measured.rows, comparison.subjects)},
       {"measured_responses", measured_responses_json(compared.measured.responses)},
+      {"measured_runs", measured_runs_json(compared.measured.runs)},
       {"mac", mac_json(compared.measured.shapes)},
       {"findings", findings},
   };

@@ -1,11 +1,13 @@
 #include "report/page/compare_page.hpp"
 
+#include "compare/measured_verdict.hpp"
 #include "report/page/comparison_blocks.hpp"
 #include "report/page/measured_blocks.hpp"
 #include "report/page/page_table.hpp"
 #include "report/page/page_words.hpp"
 #include "report/page/payload_sweep.hpp"
 #include "report/tables/comparison_tables.hpp"
+#include "report/tables/measured_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +28,27 @@ const ComparedArm& worst_of(const std::vector<ComparedArm>& arms) {
   });
 }
 
-Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
+/// The arm whose measurement is least likely, or farthest off in per cent.
+compare::MeasuredVerdict worst_measured(const std::vector<ComparedArm>& arms) {
+  compare::MeasuredVerdict worst;
+  for (const ComparedArm& arm : arms) {
+    const auto verdict = compare::judge(arm.measured);
+    const bool is_worse = verdict.agreement != worst.agreement
+                              ? verdict.agreement > worst.agreement
+                              : verdict.worst_std > worst.worst_std ||
+                                    (verdict.judged == 0 &&
+                                     verdict.worst_percent > worst.worst_percent);
+    if (is_worse) worst = verdict;
+  }
+  return worst;
+}
+
+/// "agrees with exact_tf ..." of "Measurement: agrees with exact_tf ...".
+std::string behind_colon(const std::string& line) {
+  return line.substr(line.find(": ") + 2);
+}
+
+Verdict formulations_verdict(const std::vector<ComparedArm>& arms) {
   const auto agreeing = std::ranges::count_if(
       arms, [](const ComparedArm& arm) { return arm.comparison.verdict.agree; });
   const bool agree = agreeing == std::ssize(arms);
@@ -38,6 +60,25 @@ Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
   }
   return {agree ? Status::good : Status::bad,
           agree ? "formulations agree" : "formulations disagree", std::move(sentence)};
+}
+
+/// Of a measurement before that of the formulations.
+Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
+  const Verdict formulations = formulations_verdict(arms);
+  const auto measured = worst_measured(arms);
+  using enum compare::MeasuredAgreement;
+  if (measured.agreement == none) return formulations;
+  const bool is_bad = formulations.status == Status::bad;
+  const Status status = measured.agreement == differs ? Status::bad
+                        : is_bad                      ? Status::bad
+                        : measured.agreement == agrees ? Status::good
+                                                       : Status::neutral;
+  const std::string word = measured.agreement == differs  ? "measurement differs"
+                           : measured.agreement == agrees ? "measurement agrees"
+                                                          : "measurement not judged";
+  const std::string sentence = text_in_words(behind_colon(measured_verdict_line(measured)));
+  return {status, word + ", " + formulations.word,
+          "Measurement: " + sentence + " Formulations: " + formulations.sentence};
 }
 
 std::string largest(const std::vector<ComparedArm>& arms, std::string_view part) {
@@ -74,6 +115,13 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
       ++measured;
     }
   }
+  double nrmse = 0.0;
+  for (const ComparedArm& arm : arms) {
+    for (const auto& run : arm.measured.runs) {
+      for (const auto& signal : run.signals) nrmse = std::fmax(nrmse, signal.nrmse_percent);
+    }
+  }
+  if (nrmse > 0.0) facts.push_back({"largest NRMSE of a signal", number_of(nrmse, 3) + " %"});
   if (measured > 0) {
     facts.push_back({"measured poles and zeros", fmt::format("{}", measured)});
     facts.push_back({"largest error of the model", number_of(error, 3) + " %"});
@@ -173,6 +221,11 @@ PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin
   const auto names = named(arms);
   auto measured = measured_responses(names);
   auto responses = comparison_responses(names);
+  if (auto runs = measured_runs(names); !runs.views.empty()) {
+    Section section{"measured-runs", "Measured and simulated runs"};
+    section.add(std::move(runs));
+    document.add(std::move(section));
+  }
   if (!measured.views.empty()) {
     document.headline = std::move(measured);
     Section section{"responses", "Frequency responses"};

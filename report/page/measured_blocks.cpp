@@ -67,8 +67,41 @@ CurvesBlock measured_responses(const std::vector<NamedArm>& arms) {
   return block;
 }
 
+CurvesBlock measured_runs(const std::vector<NamedArm>& arms) {
+  CurvesBlock block{{"measured-runs", "Measured and simulated runs",
+                     "Simulated with all effects of the arm. Fit: 100 (1 - |y - simulated|/|y - "
+                     "mean of y|)."},
+                    {"time", "s"},
+                    choices_of(arms, {"run", "channel"}),
+                    {}};
+  for (const NamedArm& arm : arms) {
+    for (const auto& run : arm.arm->measured.runs) {
+      for (const auto& signal : run.signals) {
+        std::vector<double> measured = signal.measured;
+        for (const std::size_t k : signal.left_out) measured[k] = kGapNumber;
+        std::vector<double> residual;
+        for (std::size_t k = 0; k < measured.size(); ++k) {
+          residual.push_back(measured[k] - signal.simulated[k]);
+        }
+        const std::string name = text_in_words(signal.sensor);
+        CurvesPanel values{{name, signal.unit}, 1.6, {}};
+        values.series.push_back(
+            {"measured", Role::measured, Draw::line, record_of(run.time_s, measured)});
+        values.series.push_back({fmt::format("simulated, fit {} %", number_of(signal.fit_percent(), 4)),
+                                 Role::before, Draw::line, record_of(run.time_s, signal.simulated)});
+        CurvesPanel below{{"residual", signal.unit}, 1.0, {}};
+        below.series.push_back(
+            {"residual", Role::residual_before, Draw::line, record_of(run.time_s, residual)});
+        block.views.push_back(view_of(arm, {run.run, name}, {std::move(values), std::move(below)}));
+      }
+    }
+  }
+  return block;
+}
+
 void add_measured_tables(Section& section, const NamedArm& arm) {
   const compare::MeasuredComparison& measured = arm.arm->measured;
+  add_table(section, measured_runs_table(measured.runs), "measured-runs-table");
   add_table(section, measured_table(measured.rows, arm.arm->comparison.subjects), "measured");
   add_table(section, measured_damping_table(measured.rows), "measured-damping");
   add_table(section, measured_response_table(measured.responses), "measured-response-table");

@@ -44,7 +44,7 @@ std::string sensors_of(const compare::MeasuredShape& shape) {
 
 Table measured_table(const std::vector<compare::MeasuredRow>& rows,
                      const std::vector<std::string>& models) {
-  Table table{"Measured and exact_tf (zeros on the imaginary axis: antiresonances)",
+  Table table{"Measured and exact_tf: natural frequencies |s|/2 pi of damped poles and zeros (antiresonances)",
               {{"feature"}, {"no."}, {"sensor"}, {"measured", "Hz", 5}}};
   const bool has_std = has_measured_std(rows);
   const bool has_arm_std = has_model_std(rows);
@@ -74,16 +74,17 @@ Table measured_table(const std::vector<compare::MeasuredRow>& rows,
 }
 
 Table measured_damping_table(const std::vector<compare::MeasuredRow>& rows) {
-  Table table{"Measured damping ratios and projected ones of exact_tf",
-              {{"no."},
+  Table table{"Measured damping ratios and those of the damped poles and zeros of exact_tf",
+              {{"feature"},
+               {"no."},
                {"sensor"},
                {"measured", "", 3},
                {"std", "", 2},
                {"model", "", 4},
                {"difference", "std", 3}}};
   for (const auto& row : rows) {
-    if (row.measured.feature != measured::Feature::pole || !row.measured.damping_ratio) continue;
-    table.add_row({order_cell(row), sensor_cell(row), *row.measured.damping_ratio,
+    if (!row.measured.damping_ratio) continue;
+    table.add_row({std::string(measured::to_string(row.measured.feature)), order_cell(row), sensor_cell(row), *row.measured.damping_ratio,
                    row.measured.damping_ratio_std.value_or(kMissing),
                    row.model_damping_ratio.value_or(kMissing), row.damping_deviation});
   }
@@ -107,6 +108,56 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows) {
       within, known, kWithin, largest,
       has_model_std(rows) ? "of the measurement and of the uncertain numbers of the arm file"
                           : "of the measurement; the arm file states no uncertain number");
+}
+
+Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs) {
+  Table table{"Measured time runs and their simulation by exact_tf, with the effects of the arm",
+              {{"run"}, {"start"}, {"loop"}, {"channel"}, {"fit", "%", 4}, {"NRMSE", "%", 3}}};
+  for (const auto& run : runs) {
+    for (const auto& signal : run.signals) {
+      table.add_row({run.run, std::string(run.free_start ? "free" : "rest"),
+                     std::string(run.closed_loop ? "closed" : "open"), signal.sensor,
+                     signal.fit_percent(), signal.nrmse_percent});
+    }
+  }
+  return table;
+}
+
+Table measured_run_listing(const compare::MeasuredTimeRun& run) {
+  Table table{run.run, {{"time", "s"}, {"torque", "N m"}}};
+  for (const auto& signal : run.signals) {
+    table.columns.push_back({signal.sensor + " measured", signal.unit});
+    table.columns.push_back({signal.sensor + " simulated", signal.unit});
+  }
+  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+    std::vector<Cell> cells = {run.time_s[k], run.torque_N_m[k]};
+    for (const auto& signal : run.signals) {
+      const bool is_reading = !std::ranges::binary_search(signal.left_out, k);
+      cells.push_back(is_reading ? Cell(signal.measured[k]) : Cell());
+      cells.emplace_back(signal.simulated[k]);
+    }
+    table.add_row(std::move(cells));
+  }
+  return table;
+}
+
+std::string measured_verdict_line(const compare::MeasuredVerdict& verdict) {
+  const std::string percent =
+      verdict.worst_percent_of.empty()
+          ? ""
+          : fmt::format(" Largest difference in per cent: {:.3g} % ({}).", verdict.worst_percent,
+                        verdict.worst_percent_of);
+  if (verdict.agreement == compare::MeasuredAgreement::not_judged) {
+    return "Measurement: no standard deviation is known, therefore not judged." + percent;
+  }
+  const bool agrees = verdict.agreement == compare::MeasuredAgreement::agrees;
+  return fmt::format(
+      "Measurement: {} exact_tf within its standard deviations: chi-square {:.3g} of {} "
+      "number{}, probability {:.2g} (limit {:.2g}, as of one number at 2 standard deviations); "
+      "farthest at {:.3g} ({}).{}",
+      agrees ? "agrees with" : "DIFFERS from", verdict.chi_square, verdict.judged,
+      verdict.judged == 1 ? "" : "s", verdict.p_value, compare::kLeastProbability,
+      verdict.worst_std, verdict.worst_std_of, percent);
 }
 
 Table measured_response_table(const std::vector<compare::MeasuredResponse>& responses) {

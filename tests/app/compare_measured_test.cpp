@@ -88,20 +88,29 @@ TEST_F(CompareMeasured, TakesTheRunsOfAMeasurementThatAreOfThisArm) {
         "arm = \"rig.toml\"\n"
         "[[run]]\nid = \"sine\"\nkind = \"frf\"\nfile = \"frf.csv\"\n"
         "[[run]]\nid = \"loaded\"\nkind = \"frf\"\nfile = \"frf.csv\"\npayload = { mass = 0.1 }\n"
-        "[[run]]\nid = \"table\"\nkind = \"modal\"\nfile = \"modal.csv\"\n"
-        "[[run]]\nid = \"noise\"\nkind = \"time\"\nfile = \"none.csv\"\n");
+        "[[run]]\nid = \"table\"\nkind = \"modal\"\nfile = \"modal.csv\"\n");
   const Json document = compared("m.toml");
   ASSERT_EQ(document["measured_responses"].size(), 1U);
   EXPECT_EQ(document["measured_responses"][0]["run"], "sine");
   EXPECT_EQ(document["measured"].size(), 1U);
-  EXPECT_THAT(text_, HasSubstr("note: time runs noise are not compared; flexarm identify m.toml"));
   EXPECT_THAT(run({"compare", "rig.toml", "--measured", "m.toml", "--json", "frf.csv"}).errors,
               HasSubstr("--json frf.csv: would overwrite the input frf.csv"));
-  write("time.toml",
-        "arm = \"rig.toml\"\n[[run]]\nid = \"a\"\nkind = \"time\"\nfile = \"none.csv\"\n");
-  const Ended refused = run({"compare", "rig.toml", "--measured", "time.toml"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.errors, HasSubstr("flexarm identify time.toml --out identified"));
+}
+
+TEST_F(CompareMeasured, SimulatesTimeRunsOfTheMeasurementsOwnArm) {
+  write("rig.toml", kUncertainArm);
+  ASSERT_EQ(run({"simulate", "rig.toml", "--modes", "16", "--duration", "2", "--out", "s"}).status,
+            0);
+  const Ended ended = run({"compare", "--quick", "--poles", "2", "--measured", "s/measurement.toml",
+                           "--json", "c.json"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("Measurement: no standard deviation is known"),
+                                  HasSubstr("Formulations: agree.")));
+  const Json runs = Json::parse(text_of("c.json"))["comparisons"][0]["measured_runs"];
+  ASSERT_EQ(runs.size(), 1U);
+  for (const auto& channel : runs[0]["channels"]) {
+    EXPECT_GT(channel["fit_percent"].get<double>(), 99.0) << channel["channel"];
+  }
 }
 
 TEST_F(CompareMeasured, CorrelatesMeasuredModeShapes) {

@@ -1,9 +1,9 @@
-#include "diagnose/predictors/initial_state.hpp"
+#include "compare/initial_state.hpp"
 
 #include <algorithm>
 #include <limits>
 
-namespace flexarm::diagnose {
+namespace flexarm::compare {
 
 using Eigen::Index;
 
@@ -39,4 +39,4 @@ double InitialStateEstimator::cost(const Eigen::VectorXd& left,
   return left.cwiseQuotient(deviations_).squaredNorm() + state.cwiseQuotient(prior_).squaredNorm();
 }
 
-}  // namespace flexarm::diagnose
+}  // namespace flexarm::compare

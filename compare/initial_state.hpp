@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/QR>
 
-namespace flexarm::diagnose {
+namespace flexarm::compare {
 
 /// Prior standard deviations of an unknown initial state: what each state adds to the readings is
 /// about as large as the readings themselves. `per_state` is the change of the readings, sample by
@@ -36,4 +36,4 @@ class InitialStateEstimator {
   Eigen::HouseholderQR<Eigen::MatrixXd> solver_;  // of full rank by the prior
 };
 
-}  // namespace flexarm::diagnose
+}  // namespace flexarm::compare

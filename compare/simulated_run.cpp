@@ -1,6 +1,6 @@
-#include "diagnose/predictors/simulated_run.hpp"
+#include "compare/simulated_run.hpp"
 
-#include "diagnose/predictors/initial_state.hpp"
+#include "compare/initial_state.hpp"
 
 #include <Eigen/QR>
 
@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace flexarm::diagnose {
+namespace flexarm::compare {
 
 using Eigen::Index;
 
@@ -155,20 +155,19 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
       .reshaped();
 }
 
-Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const PrescribedMotion& motion,
+Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const Eigen::Vector2d& hub,
+                           const std::vector<double>& acceleration_rad_per_s2,
                            const measured::MeasuredRun& run, const Eigen::VectorXd& measured,
                            const Eigen::VectorXd& deviations, const arm::Deadline& deadline) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
-  const auto& command = motion.acceleration_rad_per_s2;
-  const Eigen::Vector2d hub(motion.angle_rad, motion.velocity_rad_per_s);
   const InitialStates initial{rigid_motion(simulation, record, hub),
                               simulation.resolved_states_of_resting_hub()};
-  Eigen::MatrixXd readings = simulation.readings(command, initial.known);
+  Eigen::MatrixXd readings = simulation.readings(acceleration_rad_per_s2, initial.known);
   if (run.run.initial == measured::InitialState::free) {
-    readings =
-        from_likely_state(simulation, command, initial, readings, measured, deviations, deadline);
+    readings = from_likely_state(simulation, acceleration_rad_per_s2, initial, readings, measured,
+                                 deviations, deadline);
   }
   return readings.reshaped();
 }
 
-}  // namespace flexarm::diagnose
+}  // namespace flexarm::compare

@@ -28,6 +28,8 @@ using response::SteppedSineOptions;
 
 constexpr std::uint32_t kStreamsOfARun = 1000;
 
+constexpr int kAlwaysAffordable = 40;  // modes, for records of any length
+
 /// A model of the arm with one of the payloads.
 struct PayloadModel {
   arm::Payload payload;
@@ -50,8 +52,8 @@ class Models {
     loaded.payload = payload;
     PayloadModel made{payload, response::take_apart(loaded), {}};
     const int modes = experiment_.truncation.modes;
-    const auto chosen = options_.formulation.make(
-        made.parts.linear, modes + (options_.static_correction ? 1 : 0));
+    const auto chosen =
+        options_.formulation.make(made.parts.linear, modes + (options_.static_correction ? 1 : 0));
     made.model = response::time_model(chosen.formulation, made.parts, modes, sensors_,
                                       options_.static_correction);
     experiment_.model = chosen.name;
@@ -177,7 +179,8 @@ std::vector<double> torque_in_loop(const PlannedRun& plan, const arm::Arm& loade
                                    const std::vector<arm::Sensor>& sensors, double period_s) {
   constexpr int kModes = 10;
   const ArmParts parts = response::take_apart(loaded);
-  const auto model = response::time_model(response::formulation_of_fit(loaded), parts, kModes, sensors);
+  const auto model =
+      response::time_model(response::formulation_of_fit(loaded), parts, kModes, sensors);
   return response::ArmSimulator(model, parts, sensors,
                                 response::options_of_fit(period_s, response::TorqueHold::zero))
       .closed_loop_readings({*plan.controller, plan.reference.values})
@@ -195,56 +198,49 @@ response::Truncation truncation_of(const PlannedRun& plan, const arm::Arm& loade
                                              options.static_correction, count);
   }
   if (plan.time_s.size() < 2) return {count.given.value_or(1), std::vector<double>(sensors.size())};
-  const double period_s = (plan.time_s.back() - plan.time_s.front()) /
-                          static_cast<double>(plan.time_s.size() - 1);
-  const auto torque_N_m = plan.controller ? torque_in_loop(plan, loaded, sensors, period_s)
-                                          : plan.torque.torque_N_m;
+  const double period_s =
+      (plan.time_s.back() - plan.time_s.front()) / static_cast<double>(plan.time_s.size() - 1);
+  const auto torque_N_m =
+      plan.controller ? torque_in_loop(plan, loaded, sensors, period_s) : plan.torque.torque_N_m;
   return response::truncation_in_time(loaded, sensors, torque_N_m, period_s, options.hold, count);
-}
-
-/// Modes with which all runs take some seconds: a sample costs as the square of the states, and with
-/// dry friction or forces along the beam several times that.
-int affordable_modes(const arm::Arm& arm, const std::vector<PlannedRun>& runs) {
-  constexpr double kProducts = 4e9;
-  constexpr double kOfNonlinearArm = 1e9;
-  constexpr double kLeast = 40.0;
-  double samples = 1.0;
-  for (const PlannedRun& run : runs) samples += static_cast<double>(run.time_s.size());
-  const ArmParts parts = response::take_apart(arm);
-  const bool is_linear =
-      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
-  const double states = std::sqrt((is_linear ? kProducts : kOfNonlinearArm) / samples);
-  return static_cast<int>(
-      std::clamp(states / 2.0, kLeast, static_cast<double>(response::kMostChosenModes)));
 }
 
 /// The number of modes for all runs, and the largest errors with it.
 response::Truncation truncation_of(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
                                    const std::vector<arm::Sensor>& sensors,
-                                   const ExperimentOptions& options) {
+                                   const ExperimentOptions& options,
+                                   const ProgressOf& progress_of) {
   response::Truncation all{options.modes.value_or(0), std::vector<double>(sensors.size(), 0.0),
                            !options.modes};
   const auto judge = [&](const response::ModeCount& count) {
-    for (const PlannedRun& run : runs) {
+    const auto progress = progress_of("truncation, runs", runs.size());
+    for (std::size_t r = 0; r < runs.size(); ++r) {
       arm::Arm loaded = arm;
-      loaded.payload = run.payload.value_or(arm.payload);
+      loaded.payload = runs[r].payload.value_or(arm.payload);
       try {
-        const auto one = truncation_of(run, loaded, sensors, options, count);
+        const auto one = truncation_of(runs[r], loaded, sensors, options, count);
         all.modes = std::max(all.modes, one.modes);
+        all.visible_Hz = std::max(all.visible_Hz, one.visible_Hz);
         for (std::size_t k = 0; k < sensors.size(); ++k) {
           all.errors[k] = std::max(all.errors[k], one.errors[k]);
         }
       } catch (const arm::InputError& error) {
-        throw arm::InputError(fmt::format("{}: {}", run.id, error.what()), error.key());
+        throw arm::InputError(fmt::format("{}: {}", runs[r].id, error.what()), error.key());
+      }
+      if (!progress(static_cast<double>(r + 1) / static_cast<double>(runs.size()))) {
+        throw ExperimentCancelled{};
       }
     }
   };
   if (!options.modes) {
-    judge({.most = std::min(response::most_chosen_modes(options.formulation.name),
-                            affordable_modes(arm, runs))});
+    std::size_t samples = 0;
+    for (const PlannedRun& run : runs) samples += run.time_s.size();
+    judge({.most =
+               response::affordable_modes(response::take_apart(arm), samples, kAlwaysAffordable,
+                                          response::most_chosen_modes(options.formulation.name))});
+    if (runs.size() == 1) return all;
+    all.errors.assign(sensors.size(), 0.0);
   }
-  if (!options.modes && runs.size() == 1) return all;
-  all.errors.assign(sensors.size(), 0.0);
   judge({.given = all.modes});
   return all;
 }
@@ -301,7 +297,12 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
   const auto sensors = sensors_of(chosen);
   SimulatedExperiment experiment;
   experiment.sensors = sensors;
-  experiment.truncation = truncation_of(arm, runs, sensors, options);
+  try {
+    experiment.truncation = truncation_of(arm, runs, sensors, options, progress_of);
+  } catch (const ExperimentCancelled&) {
+    experiment.cancelled = true;
+    return experiment;
+  }
   Models models(arm, sensors, options, experiment);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& plan = runs[i];

@@ -258,7 +258,8 @@ constexpr const char* kSettings =
     "hub_velocity and, with a beam, tip_acceleration), duration_s (4), sample_time_s (0.0005), "
     "seed (1), noise (standard deviation relative to that of the signal), noise_of and "
     "quantisation (dicts by sensor, in its unit), formulation ('exact_tf') with elements, degree, "
-    "basis and functions, modes (None: as many as keep the truncation error below 1e-4), static_correction (False), hold ('zero' or 'first'), substeps "
+    "basis and functions, modes (None: as many as keep the truncation error below 1e-4), "
+    "static_correction (False), hold ('zero' or 'first'), substeps "
     "(0) and check_step (False). progress: a callable of the fraction done, None for a line on a "
     "terminal or in a notebook, False for none. Ctrl-C ends it. Raises InputError.";
 

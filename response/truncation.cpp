@@ -2,8 +2,8 @@
 
 #include "arm/rigid_hub.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/frequency/frequency_response.hpp"
 #include "response/frequency/frequency_grid.hpp"
+#include "response/frequency/frequency_response.hpp"
 #include "response/frequency/modal_response.hpp"
 #include "response/residual_mode.hpp"
 #include "response/settings.hpp"
@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace flexarm::response {
 
@@ -71,6 +72,10 @@ Eigen::MatrixXd errors_in_time(const arm::ModalModel& model, std::span<const arm
   const auto modes = static_cast<Index>(model.modes.size());
   const auto samples = static_cast<Index>(torque_N_m.size());
   const auto outputs = static_cast<Index>(sensors.size());
+  std::vector<std::size_t> derivatives;
+  for (const arm::Sensor& sensor : sensors) {
+    derivatives.push_back(static_cast<std::size_t>(arm::derivative_order(sensor)));
+  }
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(samples, outputs);
   Eigen::MatrixXd sizes(modes + 1, outputs);
   sizes.row(modes).setZero();
@@ -82,8 +87,7 @@ Eigen::MatrixXd errors_in_time(const arm::ModalModel& model, std::span<const arm
       const auto motion = stepper.at(torque_N_m[at]);
       for (Index j = 0; j < outputs; ++j) {
         const auto sensor = static_cast<std::size_t>(j);
-        const auto derivatives = static_cast<std::size_t>(arm::derivative_order(sensors[sensor]));
-        sums(k, j) += mode.sensor_values[sensor] * motion[derivatives];
+        sums(k, j) += mode.sensor_values[sensor] * motion[derivatives[sensor]];
       }
       const bool changes = hold == TorqueHold::first && at + 1 < torque_N_m.size();
       stepper.step(torque_N_m[at], changes ? torque_N_m[at + 1] - torque_N_m[at] : 0.0);
@@ -103,9 +107,24 @@ std::vector<double> row_of(const Eigen::MatrixXd& errors, Index row) {
   return {values.begin(), values.end()};
 }
 
-bool is_within(const Eigen::MatrixXd& errors, Index row) {
-  return errors.cols() == 0 || errors.row(row).maxCoeff() <= kTruncationTolerance;
+/// The fewest modes from `fewest` to `most` with which no error is above `tolerance`, or the most
+/// that there are.
+int fewest_within(const Eigen::MatrixXd& errors, double tolerance, int fewest, int most) {
+  const int last = std::min(most, static_cast<int>(errors.rows()) - 1);
+  int modes = fewest;
+  while (modes < last && (errors.row(modes).array() > tolerance).any()) ++modes;
+  return modes;
 }
+
+/// The samples from the first torque on.
+std::span<const double> judged_samples(std::span<const double> torque_N_m) {
+  const auto first = std::ranges::find_if(torque_N_m, [](double value) { return value != 0.0; });
+  const auto from = torque_N_m.subspan(static_cast<std::size_t>(first - torque_N_m.begin()));
+  return from.first(std::min(from.size(), kMostJudgedSamples));
+}
+
+/// So many times as many modes as are kept are known, for the tail of those left out.
+constexpr int kTail = 4;
 
 /// One of 1, 2, 3, 4, 6, 8, 12, 16, 24, ...: residual modes take some milliseconds each.
 int next_count(int count) {
@@ -132,23 +151,37 @@ Truncation truncation_in_time(const arm::Arm& arm, std::span<const arm::Sensor> 
   const AnyFormulation formulation = formulation_of_fit(arm);
   Truncation made{count.given.value_or(1), std::vector<double>(sensors.size(), 0.0), !count.given};
   if (!arm::has_beam(arm_of(formulation))) return made;
-  const auto judged = torque_N_m.first(std::min(torque_N_m.size(), kMostJudgedSamples));
+  const auto judged = judged_samples(torque_N_m);
   constexpr int kFirst = 32;  // modes
-  const int most_known = 2 * std::max(kFirst, count.given.value_or(count.most));
+  const int needed = count.given.value_or(count.most);
+  const int most_known =
+      std::max({kFirst, std::min(kTail * needed, kTail * kMostChosenModes), 2 * needed});
   for (int known = count.given ? most_known : kFirst;; known = std::min(2 * known, most_known)) {
     const auto model = modal_model(formulation, known, sensors, {});
     const Eigen::MatrixXd errors = errors_in_time(model, sensors, judged, period_s, hold);
     const int last = static_cast<int>(errors.rows()) - 1;
-    int modes = count.given.value_or(kFewestChosenModes);
-    while (!count.given && modes < std::min(count.most, last) && !is_within(errors, modes)) {
-      ++modes;
-    }
-    const bool is_known = 2 * modes <= known || known > last;
-    if (!count.given && !is_known) continue;
-    made.modes = std::max(1, std::min(modes, count.given ? modes : last));
-    made.errors = made.modes > last ? made.errors : row_of(errors, made.modes);
+    const int modes = std::min(count.given.value_or(fewest_within(errors, kTruncationTolerance,
+                                                                  kFewestChosenModes, count.most)),
+                               std::max(last, 1));
+    if (!count.given && kTail * modes > known && known < most_known && known <= last) continue;
+    made.modes = modes;
+    if (modes > last) return made;
+    made.errors = row_of(errors, modes);
+    const auto visible = static_cast<std::size_t>(fewest_within(errors, kVisiblePart, 0, modes));
+    made.visible_Hz = model.modes[visible].omega_rad_per_s / (2.0 * std::numbers::pi);
     return made;
   }
+}
+
+int affordable_modes(const ArmParts& parts, std::size_t samples, int least, int most) {
+  constexpr double kProducts = 4e9;
+  constexpr double kOfNonlinearArm = 1e9;
+  const bool is_linear =
+      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
+  const double states = std::sqrt((is_linear ? kProducts : kOfNonlinearArm) /
+                                  std::max(1.0, static_cast<double>(samples)));
+  return static_cast<int>(
+      std::clamp(states / 2.0, static_cast<double>(least), static_cast<double>(most)));
 }
 
 Truncation truncation_in_frequency(const AnyFormulation& formulation,

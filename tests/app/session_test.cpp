@@ -9,9 +9,8 @@
 #include <cstdlib>
 #include <random>
 #include <string>
-#include <vector>
-
 #include <sys/resource.h>
+#include <vector>
 
 namespace flexarm::testing_app {
 namespace {

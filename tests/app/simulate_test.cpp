@@ -48,8 +48,7 @@ TEST_F(Simulate, WithoutArgumentsItIsThePapersArmAndABangBang) {
                                   HasSubstr("\nTruncation: 160 flexible modes chosen"),
                                   HasSubstr("bang-bang, amplitude 0.3 N"),
                                   HasSubstr("tip_acceleration"), HasSubstr("\nEnergy balance: "),
-                                  HasSubstr("\nnote: modes above 1000 Hz"),
-                                  HasSubstr("\nnext: ")));
+                                  HasSubstr("\nnote: modes above 1000 Hz"), HasSubstr("\nnext: ")));
   EXPECT_TRUE(names_in().empty());
 }
 
@@ -179,8 +178,9 @@ TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaidOnce) {
 
 TEST_F(Simulate, GivenModesAreSaidToTruncateWithTheirError) {
   const Ended given = run_short({"--modes", "5", "--json", "out.json"});
-  EXPECT_THAT(given.output, AllOf(HasSubstr("\nTruncation: 5 flexible modes given; estimated error"),
-                                  HasSubstr("the model is\ntruncated")));
+  EXPECT_THAT(given.output,
+              AllOf(HasSubstr("\nTruncation: 5 flexible modes given; estimated error"),
+                    HasSubstr("the model is\ntruncated")));
   const Json truncation = Json::parse(text_of("out.json"))["truncation"];
   EXPECT_FALSE(truncation["chosen"].get<bool>());
   EXPECT_EQ(truncation["modes"], 5);

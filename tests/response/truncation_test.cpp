@@ -3,8 +3,8 @@
 #include "response/excitation/excitation.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/frequency/frequency_response.hpp"
-#include "response/residual_mode.hpp"
 #include "response/frequency/modal_response.hpp"
+#include "response/residual_mode.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/time_model.hpp"
 
@@ -48,12 +48,10 @@ std::vector<Case> cases() {
   loaded.payload = {0.06, 1e-5};
   arm::Arm viscous = damped;
   viscous.hub.viscous_friction_N_m_s_per_rad = 0.01;
-  return {{"undamped, pulses", plain, BangBang{}},
-          {"undamped, noise", plain, RandomNoise{}},
-          {"Kelvin-Voigt, pulses", damped, BangBang{}},
-          {"payload, pulses", loaded, BangBang{}},
-          {"payload, multisine", loaded, Multisine{}},
-          {"viscous hub, pulses", viscous, BangBang{}}};
+  return {
+      {"undamped, pulses", plain, BangBang{}},      {"undamped, noise", plain, RandomNoise{}},
+      {"Kelvin-Voigt, pulses", damped, BangBang{}}, {"payload, pulses", loaded, BangBang{}},
+      {"payload, multisine", loaded, Multisine{}},  {"viscous hub, pulses", viscous, BangBang{}}};
 }
 
 std::vector<double> torque_of(const Case& tried) {
@@ -64,8 +62,8 @@ std::vector<double> torque_of(const Case& tried) {
 std::vector<std::vector<double>> channels(const Case& tried, const std::string& formulation,
                                           int modes) {
   const ArmParts parts = take_apart(tried.arm);
-  const auto model = time_model(make_formulation(formulation, tried.arm, modes), parts, modes,
-                                every_kind());
+  const auto model =
+      time_model(make_formulation(formulation, tried.arm, modes), parts, modes, every_kind());
   SimulationOptions options;
   options.sample_time_s = kRecord.period_s;
   options.energy = false;
@@ -95,8 +93,9 @@ TEST(Truncation, InTimeTheEstimateIsTheErrorOfASimulation) {
     constexpr int kMany = 200;
     const auto whole = channels(tried, "exact_tf", kMany);
     for (const int modes : {5, 12, 40}) {
-      const auto estimate = truncation_in_time(tried.arm, every_kind(), torque_of(tried),
-                                               kRecord.period_s, TorqueHold::zero, {.given = modes});
+      const auto estimate =
+          truncation_in_time(tried.arm, every_kind(), torque_of(tried), kRecord.period_s,
+                             TorqueHold::zero, {.given = modes});
       EXPECT_FALSE(estimate.chosen);
       const auto some = channels(tried, "exact_tf", modes);
       for (std::size_t k = 0; k < some.size(); ++k) {
@@ -119,11 +118,10 @@ TEST(Truncation, TheChosenNumberIsTheFewestWithinToleranceAgainstAnotherFormulat
       EXPECT_EQ(chosen.modes, kMostChosenModes) << tried.name;
       continue;
     }
-    const auto fewer = truncation_in_time(tried.arm, every_kind(), torque_of(tried),
-                                          kRecord.period_s, TorqueHold::zero,
-                                          {.given = chosen.modes - 1});
-    EXPECT_FALSE(chosen.modes > kFewestChosenModes && fewer.largest_error() < 0.9e-4)
-        << tried.name;
+    const auto fewer =
+        truncation_in_time(tried.arm, every_kind(), torque_of(tried), kRecord.period_s,
+                           TorqueHold::zero, {.given = chosen.modes - 1});
+    EXPECT_FALSE(chosen.modes > kFewestChosenModes && fewer.largest_error() < 0.9e-4) << tried.name;
     if (chosen.modes > 40) continue;  // fem has settings for 90
     const auto whole = channels(tried, "fem", 85);
     const auto some = channels(tried, "exact_tf", chosen.modes);
@@ -174,8 +172,7 @@ TEST(Truncation, InFrequencyTheErrorIsThatOfTheModesAgainstAnotherFormulation) {
     for (const bool correction : {false, true}) {
       const auto frequencies = judged_frequencies_Hz(0.1, 100.0);
       const auto exact = make_formulation("exact_tf", tried.arm, 1);
-      const auto chosen =
-          truncation_in_frequency(exact, every_kind(), frequencies, correction, {});
+      const auto chosen = truncation_in_frequency(exact, every_kind(), frequencies, correction, {});
       EXPECT_TRUE(chosen.is_within_tolerance()) << tried.name;
       auto model = modal_model(exact, chosen.modes, every_kind(), {});
       if (correction) model = with_residual_mode(exact, model, every_kind());

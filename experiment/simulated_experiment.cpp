@@ -315,6 +315,7 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
       } else {
         experiment.runs.push_back(
             run_in_time(plan, i, payload, model, chosen, options, progress_of));
+        experiment.runs.back().truncation = experiment.truncation;
       }
     } catch (const ExperimentCancelled&) {
       experiment.cancelled = true;

@@ -33,6 +33,7 @@ struct SimulatedRun {
                                    ///< over the largest size; empty when not asked for
   std::optional<arm::Controller> controller = {};  ///< of a closed loop; its excitation is the
                                                    ///< record's reference
+  response::Truncation truncation = {};            ///< SimulatedExperiment::truncation
 };
 
 /// A run of a simulated experiment that measured a frequency response sine by sine.

@@ -229,7 +229,9 @@ void add_experiment(py::module_& module) {
       .def_property_readonly(
           "truncation_errors",
           [](const Experiment& self) { return self.simulated.truncation.errors; },
-          "Estimated truncation error of each sensor relative to its signal, list of float.")
+          "Estimated error of each sensor by the omitted modes, relative to its signal, a list; "
+          "the "
+          "largest of all runs.")
       .def_property_readonly(
           "modes", [](const Experiment& self) { return self.simulated.modes; },
           "Flexible modes that were kept.")

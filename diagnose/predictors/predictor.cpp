@@ -1,5 +1,6 @@
 #include "diagnose/predictors/predictor.hpp"
 
+#include "arm/input_error.hpp"
 #include "compare/simulated_run.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"

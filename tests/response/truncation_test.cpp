@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -81,8 +83,8 @@ double difference(const std::vector<double>& some, const std::vector<double>& wh
   return std::sqrt(error / size);
 }
 
-// Estimated with twice the modes, the error of which falls as modes^(-3/2) at the slowest, an error
-// is low by 6 %; damping that couples modes is left out of it.
+// Modes beyond four times those kept make the estimate low by 13 % where the error falls as
+// modes^(-1/2), which is the slowest here; damping that couples modes is left out of it.
 constexpr double kLow = 1.3;
 constexpr double kHigh = 1.3;
 // Where an error is at the rounding of e^(A dt), the estimate is lower.
@@ -144,13 +146,45 @@ TEST(Truncation, AnUndampedAccelerationAfterAJumpNeedsMoreThanTheMost) {
 }
 
 TEST(Truncation, AFirstOrderHoldRingsHighModesLess) {
-  const Case tried = cases().front();
+  // From torque 0 on: a first sample that is not is a jump by either hold.
+  const Case tried{"", cases().front().arm, Sine{.amplitude_N_m = 0.1, .frequency_Hz = 3.0}};
   const auto of_hold = [&](TorqueHold hold) {
     return truncation_in_time(tried.arm, every_kind(), torque_of(tried), kRecord.period_s, hold,
                               {.given = 40})
         .errors[2];
   };
   EXPECT_LT(of_hold(TorqueHold::first), 0.1 * of_hold(TorqueHold::zero));
+}
+
+TEST(Truncation, VisibleModesAreThoseWithoutWhichAnErrorIsAboveOnePercent) {
+  const Case tried = cases().front();
+  const auto torque = torque_of(tried);
+  const auto with = [&](int modes) {
+    return truncation_in_time(tried.arm, every_kind(), torque, kRecord.period_s, TorqueHold::zero,
+                              {.given = modes});
+  };
+  const auto natural = modal_model(make_formulation("exact_tf", tried.arm, 60), 60, {}, {}).modes;
+  int visible = 1;
+  while (with(visible).largest_error() > kVisiblePart) ++visible;
+  const double highest_Hz =
+      natural.at(static_cast<std::size_t>(visible)).omega_rad_per_s / (2.0 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(with(60).visible_Hz, highest_Hz);
+  // A model of fewer modes shows all of them.
+  EXPECT_DOUBLE_EQ(with(3).visible_Hz, natural[3].omega_rad_per_s / (2.0 * std::numbers::pi));
+}
+
+TEST(Truncation, RestBeforeTheTorqueDoesNotCount) {
+  const Case tried = cases().front();
+  std::vector<double> late(3 * kMostJudgedSamples, 0.0);
+  const auto torque = torque_of(tried);
+  std::ranges::copy(torque, late.begin() + 2 * kMostJudgedSamples);
+  std::vector<double> early(late.begin() + 2 * kMostJudgedSamples, late.end());
+  const auto errors_of = [&](const std::vector<double>& of) {
+    return truncation_in_time(tried.arm, every_kind(), of, kRecord.period_s, TorqueHold::zero,
+                              {.given = 10})
+        .errors;
+  };
+  EXPECT_EQ(errors_of(late), errors_of(early));
 }
 
 TEST(Truncation, WithoutSignalOrBeamThereIsNoError) {

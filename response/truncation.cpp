@@ -7,14 +7,14 @@
 #include "response/frequency/modal_response.hpp"
 #include "response/residual_mode.hpp"
 #include "response/settings.hpp"
+#include "response/time/single_modes.hpp"
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 
 namespace flexarm::response {
@@ -23,76 +23,22 @@ namespace {
 
 using Eigen::Index;
 
-/// One mode under a torque that is linear between samples.
-class ModeStepper {
- public:
-  ModeStepper(const arm::ModalModel& model, std::size_t i, double period_s)
-      : stiffness_(omega_squared(model, i)),
-        damping_(model.damping_rad_per_s[i * model.modes.size() + i]),
-        force_(model.modes[i].hub_slope / model.modal_mass_kg_m2) {
-    // X = (scale q, q'), torque, and its change over the sample.
-    scale_ = std::max(std::sqrt(std::abs(stiffness_)), 1.0);
-    Eigen::Matrix4d chain = Eigen::Matrix4d::Zero();
-    chain(0, 1) = scale_ * period_s;
-    chain(1, 0) = -stiffness_ / scale_ * period_s;
-    chain(1, 1) = -damping_ * period_s;
-    chain(1, 2) = force_ * period_s;
-    chain(2, 3) = 1.0;
-    step_ = chain.exp();
-  }
-
-  /// q, q' and q'' just after the torque at this sample, `torque_N_m`, has begun to act.
-  std::array<double, 3> at(double torque_N_m) const {
-    const double q = position_ / scale_;
-    return {q, velocity_, force_ * torque_N_m - stiffness_ * q - damping_ * velocity_};
-  }
-
-  void step(double torque_N_m, double change_N_m) {
-    const double position = step_(0, 0) * position_ + step_(0, 1) * velocity_ +
-                            step_(0, 2) * torque_N_m + step_(0, 3) * change_N_m;
-    velocity_ = step_(1, 0) * position_ + step_(1, 1) * velocity_ + step_(1, 2) * torque_N_m +
-                step_(1, 3) * change_N_m;
-    position_ = position;
-  }
-
- private:
-  double stiffness_;
-  double damping_;
-  double force_;
-  double scale_ = 1.0;
-  double position_ = 0.0;
-  double velocity_ = 0.0;
-  Eigen::Matrix4d step_;
-};
-
 /// Errors of keeping 0, 1, ... flexible modes of `model`: a row a number, a column a sensor.
 Eigen::MatrixXd errors_in_time(const arm::ModalModel& model, std::span<const arm::Sensor> sensors,
                                std::span<const double> torque_N_m, double period_s,
                                TorqueHold hold) {
   const auto modes = static_cast<Index>(model.modes.size());
-  const auto samples = static_cast<Index>(torque_N_m.size());
   const auto outputs = static_cast<Index>(sensors.size());
-  std::vector<std::size_t> derivatives;
-  for (const arm::Sensor& sensor : sensors) {
-    derivatives.push_back(static_cast<std::size_t>(arm::derivative_order(sensor)));
-  }
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(samples, outputs);
+  std::vector<std::vector<double>> sums(sensors.size(), std::vector<double>(torque_N_m.size()));
   Eigen::MatrixXd sizes(modes + 1, outputs);
   sizes.row(modes).setZero();
   for (Index i = modes; i-- > 0;) {
-    const auto& mode = model.modes[static_cast<std::size_t>(i)];
-    ModeStepper stepper(model, static_cast<std::size_t>(i), period_s);
-    for (Index k = 0; k < samples; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const auto motion = stepper.at(torque_N_m[at]);
-      for (Index j = 0; j < outputs; ++j) {
-        const auto sensor = static_cast<std::size_t>(j);
-        sums(k, j) += mode.sensor_values[sensor] * motion[derivatives[sensor]];
-      }
-      const bool changes = hold == TorqueHold::first && at + 1 < torque_N_m.size();
-      stepper.step(torque_N_m[at], changes ? torque_N_m[at + 1] - torque_N_m[at] : 0.0);
+    add_readings_of_mode(sums, model, static_cast<std::size_t>(i), sensors, torque_N_m, period_s,
+                         hold);
+    for (Index j = 0; j < outputs; ++j) {
+      const auto& sum = sums[static_cast<std::size_t>(j)];
+      sizes(i, j) = Eigen::VectorXd::Map(sum.data(), std::ssize(sum)).norm();
     }
-    sizes.row(i) = sums.colwise().norm();
   }
   // With n flexible modes kept, those from n + 1 on are left out.
   Eigen::MatrixXd errors = sizes.bottomRows(modes);
@@ -176,9 +122,7 @@ Truncation truncation_in_time(const arm::Arm& arm, std::span<const arm::Sensor> 
 int affordable_modes(const ArmParts& parts, std::size_t samples, int least, int most) {
   constexpr double kProducts = 4e9;
   constexpr double kOfNonlinearArm = 1e9;
-  const bool is_linear =
-      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
-  const double states = std::sqrt((is_linear ? kProducts : kOfNonlinearArm) /
+  const double states = std::sqrt((is_linear(parts) ? kProducts : kOfNonlinearArm) /
                                   std::max(1.0, static_cast<double>(samples)));
   return static_cast<int>(
       std::clamp(states / 2.0, static_cast<double>(least), static_cast<double>(most)));

@@ -312,7 +312,7 @@ Command add_simulate(CLI::App& program) {
   add_formulation_choice(*parser, options.formulation);
   parser->add_option("--modes", options.modes,
                      "Number of flexible modes; default: as many as keep the truncation error of "
-                     "each sensor below 1e-4 of its signal, 160 at most");
+                     "each sensor below 1e-4 of its signal");
   parser->add_flag("--static-correction", options.static_correction,
                    "Add a residual mode for omitted modes");
   add_sensor_choice(*parser, arguments->sensors);

@@ -90,11 +90,6 @@ struct ArmParts {
   bool hub_is_driven = false;
 };
 
-/// No friction of the hub, and no force that varies with the state: responses add up.
-inline bool is_linear(const ArmParts& parts) {
-  return parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
-}
-
 /// Adds what an effect does through ports outside of the linear arm; a stage of the torque's path
 /// behind those that are there. Throws InputError as `take_apart`.
 void add_effect(ArmParts& parts, const arm::Effect& effect);

@@ -119,6 +119,10 @@ Truncation truncation_in_time(const arm::Arm& arm, std::span<const arm::Sensor> 
   }
 }
 
+bool is_linear(const ArmParts& parts) {
+  return parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
+}
+
 int affordable_modes(const ArmParts& parts, std::size_t samples, int least, int most) {
   constexpr double kProducts = 4e9;
   constexpr double kOfNonlinearArm = 1e9;

@@ -68,6 +68,9 @@ Truncation truncation_in_frequency(const AnyFormulation& formulation,
                                    std::span<const double> frequency_Hz, bool static_correction,
                                    const ModeCount& count);
 
+/// No friction of the hub, and no force that varies with the state: responses add up.
+bool is_linear(const ArmParts& parts);
+
 /// The most modes, from `least` to `most`, with which simulations of so many samples in all take
 /// some seconds: a sample costs as the square of the states, and with dry friction or forces that
 /// vary several times that.

@@ -218,7 +218,8 @@ SteppedSineResponse measure_stepped_sine(const arm::ModalModel& model, const Arm
   const std::vector<double> frequencies = frequencies_Hz(sine);
   const ModalDynamics arm = modal_dynamics(model, parts, sensors);
   require_valid(parts, sensors, sine, options, arm);
-  const bool is_linear = response::is_linear(parts);
+  const bool is_linear =
+      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
   // Wherever it stands the arm is the same: an angle that has grown costs digits.
   const bool turns_freely = arm.stiffness(0) == 0.0 && parts.hub.smooth.empty();
   Measuring measuring(parts, sensors, sine, options);

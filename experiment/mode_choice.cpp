@@ -2,6 +2,7 @@
 
 #include "arm/deadline.hpp"
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
 #include "response/time/single_modes.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace flexarm::experiment {
@@ -17,8 +19,6 @@ namespace flexarm::experiment {
 namespace {
 
 using response::ArmParts;
-
-constexpr int kAlwaysAffordable = 40;  // modes, for records of any length
 
 /// The torque of a closed loop, which depends on the model, by a model of few modes.
 std::vector<double> torque_in_loop(const PlannedRun& plan, const arm::Arm& loaded,
@@ -51,35 +51,67 @@ response::Truncation truncation_of(const PlannedRun& plan, const arm::Arm& loade
   return response::truncation_in_time(loaded, sensors, torque_N_m, period_s, options.hold, count);
 }
 
-/// Whether modes beyond the first kCoupledModes may be stepped one by one in all runs: nothing but
-/// the torque on the hub, which goes straight between samples, acts on them, and damping hardly
-/// couples them.
+/// Forces that vary with the state take inner steps that resolve the fastest mode.
+bool have_inner_steps(const ArmParts& parts) {
+  return !parts.hub.smooth.empty() || !parts.beam_forces.empty() ||
+         std::isfinite(parts.hub.friction_scale_rad_per_s());
+}
+
+/// The most modes that are stepped together, so that all runs take some seconds.
+int most_coupled(const arm::Arm& arm, const ArmParts& parts, const std::vector<PlannedRun>& runs,
+                 const ExperimentOptions& options) {
+  constexpr int kAlwaysAffordable = 40;
+  constexpr int kLeastWithInnerSteps = 6;
+  constexpr double kInnerStepsPerRadian = 2.0;
+  constexpr double kProducts = 2e8;
+  std::size_t samples = 0;
+  for (const PlannedRun& run : runs) samples += run.time_s.size();
+  const int most = response::most_chosen_modes(options.formulation.name);
+  if (!have_inner_steps(parts)) {
+    return response::affordable_modes(parts, samples, kAlwaysAffordable, most);
+  }
+  const auto model = response::modal_model(response::formulation_of_fit(arm), most, {}, {});
+  const auto products = [&](std::size_t mode) {
+    const double rate = std::max(model.modes[mode].omega_rad_per_s,
+                                 model.damping_rad_per_s[mode * (model.modes.size() + 1)]);
+    double steps = 0.0;
+    for (const PlannedRun& run : runs) {
+      if (run.time_s.size() < 2) continue;
+      const double period_s = run.time_s[1] - run.time_s[0];
+      steps += static_cast<double>(run.time_s.size()) *
+               std::max(1.0, kInnerStepsPerRadian * rate * period_s);
+    }
+    return steps * std::pow(2.0 * static_cast<double>(mode), 2);
+  };
+  auto modes = static_cast<std::size_t>(kLeastWithInnerSteps);
+  while (modes + 1 < model.modes.size() && products(modes + 1) <= kProducts) ++modes;
+  return static_cast<int>(modes);
+}
+
+/// Whether modes beyond the first `coupled` may be stepped one by one in all runs: damping hardly
+/// couples them, nothing but the torque on the hub acts on them that changes fast, and that goes
+/// straight between samples. Dry friction jumps, and holds the hub.
 bool are_further_modes_single(const arm::Arm& arm, const ArmParts& parts,
-                              const std::vector<PlannedRun>& runs,
-                              const ExperimentOptions& options) {
-  constexpr int kTried = 4 * kCoupledModes;
+                              const std::vector<PlannedRun>& runs, const ExperimentOptions& options,
+                              int coupled) {
   const bool is_plain = options.formulation.name == response::FormulationChoice{}.name &&
-                        !options.static_correction && response::is_linear(parts) &&
+                        !options.static_correction && parts.hub.friction.empty() &&
                         parts.actuator.delay_s == 0.0 && parts.actuator.lag_s == 0.0 &&
                         parts.sensor_chains.empty();
   const bool are_open = std::ranges::none_of(
       runs, [](const PlannedRun& run) { return run.controller || run.stepped_sine; });
-  return is_plain && are_open &&
+  return is_plain && are_open && arm::has_beam(parts.linear) &&
          response::are_single(
-             response::modal_model(response::formulation_of_fit(arm), kTried, {}, {}),
-             static_cast<std::size_t>(kCoupledModes) + 1);
+             response::modal_model(response::formulation_of_fit(arm), 4 * coupled, {}, {}),
+             static_cast<std::size_t>(coupled) + 1);
 }
 
-/// The most modes that are chosen for runs of so many samples in all.
-int most_modes(const ArmParts& parts, std::size_t samples, bool single,
-               const ExperimentOptions& options) {
-  constexpr double kStepsOfModes = 1e9;  // some ten seconds
-  const int coupled = response::affordable_modes(
-      parts, samples, kAlwaysAffordable, response::most_chosen_modes(options.formulation.name));
-  if (!single) return coupled;
-  const double affordable = kStepsOfModes / std::max(1.0, static_cast<double>(samples));
-  return std::max(coupled,
-                  static_cast<int>(std::min(affordable, static_cast<double>(kMostSingleModes))));
+/// The most modes that are chosen where those beyond the coupled ones are stepped one by one.
+int most_single(const std::vector<PlannedRun>& runs) {
+  constexpr double kSteps = 1e9;  // of one mode by one sample: some ten seconds
+  double samples = 1.0;
+  for (const PlannedRun& run : runs) samples += static_cast<double>(run.time_s.size());
+  return static_cast<int>(std::min(kSteps / samples, static_cast<double>(kMostSingleModes)));
 }
 
 }  // namespace
@@ -110,17 +142,17 @@ ModeChoice choose_modes(const arm::Arm& arm, const std::vector<PlannedRun>& runs
     }
   };
   const ArmParts parts = response::take_apart(arm);
-  const bool single = are_further_modes_single(arm, parts, runs, options);
+  const int most = most_coupled(arm, parts, runs, options);
+  int coupled = options.modes ? kCoupledModes : std::min(most, kCoupledModes);
+  const bool single = are_further_modes_single(arm, parts, runs, options, coupled);
   if (!options.modes) {
-    std::size_t samples = 0;
-    for (const PlannedRun& run : runs) samples += run.time_s.size();
-    judge({.most = most_modes(parts, samples, single, options)});
+    judge({.most = single ? std::max(most, most_single(runs)) : most});
   }
   if (options.modes || runs.size() > 1) {
     all.errors.assign(sensors.size(), 0.0);
     judge({.given = all.modes});
   }
-  const int coupled = single ? std::min(all.modes, kCoupledModes) : all.modes;
+  coupled = single ? std::min(all.modes, coupled) : all.modes;
   return {std::move(all), coupled};
 }
 

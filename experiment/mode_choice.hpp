@@ -17,7 +17,7 @@ struct ModeChoice {
 ModeChoice choose_modes(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
                         const std::vector<arm::Sensor>& sensors, const ExperimentOptions& options,
                         const ProgressOf& progress_of);
-inline constexpr int kCoupledModes = 40;       ///< where further ones are stepped one by one
+inline constexpr int kCoupledModes = 40;       ///< at most, where others are stepped one by one
 inline constexpr int kMostSingleModes = 1000;  ///< of the arm, these among them
 
 }  // namespace flexarm::experiment

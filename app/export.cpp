@@ -240,10 +240,11 @@ Command add_export(CLI::App& program) {
                    "State space without static correction for omitted modes");
   parser->add_option("--formulation", arguments->formulation, "exact_tf, fem or assumed_modes")
       ->capture_default_str();
-  parser->add_option("--modes", arguments->modes,
-                     "Number of flexible modes; default: as many as keep the truncation error of "
-                     "each sensor below 1e-4 (FMU: under the default torque of flexarm simulate, 40 "
-                     "at most; state space: to above the fifth pole, 160 at most)");
+  parser->add_option(
+      "--modes", arguments->modes,
+      "Number of flexible modes; default: as many as keep the truncation error of "
+      "each sensor below 1e-4 (FMU: under the default torque of flexarm simulate, 40 "
+      "at most; state space: to above the fifth pole, 160 at most)");
   parser
       ->add_option("--sensor", arguments->sensors,
                    "Outputs, comma-separated; default: hub_angle, hub_velocity and, with a beam, "

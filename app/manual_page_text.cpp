@@ -119,7 +119,7 @@ std::string argument_words(const CommandDescription& command) {
   for (const auto& option : command.options) {
     if (!option.is_positional) continue;
     const std::string word =
-        fmt::format("\\fI{}\\fR{}", roff(option.names.back()), option.is_list ? " ..." : "");
+        fmt::format("\\fI{}\\fR{}", roff(option.names.back()), option.is_repeatable ? " ..." : "");
     words += option.is_required ? " " + word : fmt::format(" [{}]", word);
   }
   return words;

@@ -16,7 +16,7 @@ struct OptionDescription {
   bool is_required = false;
   bool is_list = false;        ///< one value is a comma-separated list
   bool is_repeatable = false;  ///< several values, by repetition or as a list
-  std::string value;     ///< "TEXT", "FLOAT"; empty: a flag
+  std::string value;           ///< "TEXT", "FLOAT"; empty: a flag
   std::string default_value;
   std::string text;
 };

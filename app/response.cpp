@@ -146,8 +146,8 @@ std::string study_text(const response::ResponseStudy& study,
   if (verbose) text += forms_text(study);
   if (study.state_space) {
     text += screen_table(report::state_space_table(study));
-    text += screen_paragraph(
-        report::truncation_sentence(*study.truncation, study.response.sensors));
+    text +=
+        screen_paragraph(report::truncation_sentence(*study.truncation, study.response.sensors));
   }
   return text;
 }
@@ -289,10 +289,10 @@ Command add_response(CLI::App& program) {
       ->capture_default_str();
   add_list_option(*parser, "--frequencies", options.frequency_Hz,
                   "Frequencies [Hz] instead of a range, comma-separated");
-  parser
-      ->add_option("--modes", arguments->modes,
-                   "Number of poles, of zeros per sensor, and of flexible modes of the state space; "
-                   "default: 5 poles, and modes for a truncation error of 1e-4 in the range");
+  parser->add_option(
+      "--modes", arguments->modes,
+      "Number of poles, of zeros per sensor, and of flexible modes of the state space; "
+      "default: 5 poles, and modes for a truncation error of 1e-4 in the range");
   parser
       ->add_option(
           "--state-space", arguments->state_space_file,

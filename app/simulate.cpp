@@ -120,19 +120,25 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
   return notes;
 }
 
-/// What the sampling does not show of the modes kept, for all runs at once.
-std::string sampling_notes(const std::vector<report::SimulatedRun>& runs) {
+/// What the longest sampling period does not show of the modes that are seen in the readings.
+std::string sampling_note(const experiment::SimulatedExperiment& experiment) {
+  const double highest_Hz = experiment.truncation.visible_Hz;
   double longest_s = 0.0;
-  for (const auto& run : runs) {
-    if (run.simulation.summary.sampling != response::Sampling::aliased) continue;
+  for (const auto& run : experiment.runs) {
     longest_s = std::max(longest_s, measured::sampling_period_s(run.record));
   }
-  if (longest_s == 0.0) return "";
-  return screen_note(
-      fmt::format("modes above {:.4g} Hz, half the sampling frequency, are in the readings under "
-                  "other frequencies, as a recorder without an anti-aliasing filter shows them. The "
-                  "readings are exact; a shorter --period resolves more modes.",
-                  0.5 / longest_s));
+  const double samples = 1.0 / (highest_Hz * longest_s);
+  if (!(samples < response::kFineSamplesPerPeriod)) return "";
+  const double fine_s = 1.0 / (highest_Hz * response::kFineSamplesPerPeriod);
+  const double digit_s = std::pow(10.0, std::floor(std::log10(fine_s)));
+  return screen_note(fmt::format(
+      "modes up to {:.3g} Hz are visible in the readings (1 % of a signal). The highest has {:.2g} "
+      "samples per period: {}. The readings are exact; a sampling period (--period) of {:.1g} s "
+      "shows all of it.",
+      highest_Hz, samples,
+      samples <= response::kAliasedSamplesPerPeriod ? "they show it at a lower frequency (alias)"
+                                                    : "its peaks fall between them",
+      digit_s * std::floor(fine_s / digit_s)));
 }
 
 /// Stepped sines that were not steady when they were measured.
@@ -197,7 +203,7 @@ void print_results(const SimulateArguments& arguments, const std::vector<Planned
   print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
   const std::string notes = rounding_notes(plan) + standing_notes(runs) +
-                            sampling_notes(runs) + settling_notes(experiment.stepped_runs);
+                            sampling_note(experiment) + settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
 }
 
@@ -306,7 +312,7 @@ Command add_simulate(CLI::App& program) {
   add_formulation_choice(*parser, options.formulation);
   parser->add_option("--modes", options.modes,
                      "Number of flexible modes; default: as many as keep the truncation error of "
-                     "each sensor below 1e-4 of its signal, 160 at most");
+                     "each sensor below 1e-4 of its signal");
   parser->add_flag("--static-correction", options.static_correction,
                    "Add a residual mode for omitted modes");
   add_sensor_choice(*parser, arguments->sensors);

@@ -8,6 +8,7 @@
 #include "response/formulation_maker.hpp"
 #include "response/time/arm_simulator.hpp"
 #include "response/time/time_model.hpp"
+#include "response/truncation.hpp"
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -27,6 +28,11 @@ using Eigen::Index;
 /// Weight of readings in the estimate of a free initial state, relative to the deviation of their
 /// signal: small enough that the prior of the state does not count beside a run of readings.
 constexpr double kReadingDeviation = 0.01;
+
+/// Flexible modes of a record of any length, and of a short one: the responses from all initial
+/// states of a free run are kept, 0.5 GB for 250,000 samples of three sensors.
+constexpr int kLeastAffordable = 16;
+constexpr int kMostAffordable = 40;
 
 double nrmse_percent_of(const MeasuredSignal& signal) {
   std::vector<std::size_t> used;
@@ -49,8 +55,11 @@ double nrmse_percent_of(const MeasuredSignal& signal) {
 std::vector<MeasuredSignal> signals_of(const measured::TimeRecord& record, bool closed_loop) {
   std::vector<MeasuredSignal> signals;
   for (const auto& channel : record.channels) {
-    signals.push_back({arm::to_string(channel.sensor), std::string(arm::unit(channel.sensor)),
-                       channel.values, {}, channel.left_out});
+    signals.push_back({arm::to_string(channel.sensor),
+                       std::string(arm::unit(channel.sensor)),
+                       channel.values,
+                       {},
+                       channel.left_out});
   }
   if (closed_loop) signals.push_back({"torque", "N m", record.torque_N_m, {}});
   return signals;
@@ -74,14 +83,18 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
   std::vector<arm::Sensor> sensors;
   for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
   const auto parts = response::take_apart(loaded);
-  const auto model = response::time_model(response::formulation_of_fit(parts.linear), parts,
-                                          kSimulatedModes, sensors, true);
-  const response::ArmSimulator simulation(
-      model, parts, sensors,
-      response::options_of_fit(measured::sampling_period_s(record),
-                               run.run.torque_hold == measured::TorqueHold::zero
-                                   ? response::TorqueHold::zero
-                                   : response::TorqueHold::first));
+  const double period_s = measured::sampling_period_s(record);
+  const auto hold = run.run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
+                                                                      : response::TorqueHold::first;
+  const int modes = response::truncation_in_time(
+                        loaded, sensors, record.torque_N_m, period_s, hold,
+                        {.most = response::affordable_modes(parts, record.time_s.size(),
+                                                            kLeastAffordable, kMostAffordable)})
+                        .modes;
+  const auto model =
+      response::time_model(response::formulation_of_fit(parts.linear), parts, modes, sensors, true);
+  const response::ArmSimulator simulation(model, parts, sensors,
+                                          response::options_of_fit(period_s, hold));
   const auto samples = static_cast<Index>(record.time_s.size());
   const auto readings = samples * static_cast<Index>(sensors.size());
   Eigen::VectorXd measured(readings);

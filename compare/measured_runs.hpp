@@ -33,13 +33,11 @@ struct MeasuredTimeRun {
   std::vector<MeasuredSignal> signals;
 };
 
-/// Simulates the run by exact_tf with the lowest modes: from rest or from the most likely initial
+/// Simulates the run by exact_tf with as many modes as the recorded torque asks for
+/// (response/truncation.hpp), 40 at most: from rest or from the most likely initial
 /// state, driven by the recorded torque, or in closed loop by the recorded reference. The run's
 /// payload takes the place of the arm's. Throws InputError, with the run's id in front, as
 /// response::ArmSimulator does.
 MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::MeasuredRun& run);
-
-/// Flexible modes that move in the simulation; the residual mode answers for the others.
-inline constexpr int kSimulatedModes = 16;
 
 }  // namespace flexarm::compare

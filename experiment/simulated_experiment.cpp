@@ -1,9 +1,11 @@
 #include "experiment/simulated_experiment.hpp"
 
+#include "arm/deadline.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
-#include "response/formulation_maker.hpp"
+#include "experiment/mode_choice.hpp"
 #include "response/time/arm_simulator.hpp"
+#include "response/time/single_modes.hpp"
 #include "response/time/step_check.hpp"
 #include "response/time/time_model.hpp"
 
@@ -33,15 +35,17 @@ struct PayloadModel {
   arm::Payload payload;
   ArmParts parts;
   arm::ModalModel model;
+  /// All modes, where those beyond `model` are stepped one by one.
+  std::optional<arm::ModalModel> whole = {};
 };
 
 /// Models by payload: one is often that of several runs.
 class Models {
  public:
-  /// With the number of modes of `experiment.truncation`.
   Models(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
-         const ExperimentOptions& options, SimulatedExperiment& experiment)
-      : arm_(arm), sensors_(sensors), options_(options), experiment_(experiment) {}
+         const ExperimentOptions& options, const ModeChoice& choice,
+         SimulatedExperiment& experiment)
+      : arm_(arm), sensors_(sensors), options_(options), choice_(choice), experiment_(experiment) {}
 
   const PayloadModel& of(const arm::Payload& payload) {
     const auto known = std::ranges::find(models_, payload, &PayloadModel::payload);
@@ -49,9 +53,9 @@ class Models {
     arm::Arm loaded = arm_;
     loaded.payload = payload;
     PayloadModel made{payload, response::take_apart(loaded), {}};
-    const int modes = experiment_.truncation.modes;
-    const auto chosen = options_.formulation.make(
-        made.parts.linear, modes + (options_.static_correction ? 1 : 0));
+    const int modes = choice_.coupled;
+    const auto chosen =
+        options_.formulation.make(made.parts.linear, modes + (options_.static_correction ? 1 : 0));
     made.model = response::time_model(chosen.formulation, made.parts, modes, sensors_,
                                       options_.static_correction);
     experiment_.model = chosen.name;
@@ -61,6 +65,10 @@ class Models {
     if (experiment_.degrees_of_freedom > 0) {
       experiment_.modes = std::min(experiment_.modes, experiment_.degrees_of_freedom - 1);
     }
+    if (choice_.truncation.modes > modes) {
+      experiment_.modes = choice_.truncation.modes;
+      made.whole = response::modal_model(chosen.formulation, experiment_.modes, sensors_, {});
+    }
     models_.push_back(std::move(made));
     return models_.back();
   }
@@ -69,6 +77,7 @@ class Models {
   const arm::Arm& arm_;
   const std::vector<arm::Sensor>& sensors_;
   const ExperimentOptions& options_;
+  const ModeChoice& choice_;
   SimulatedExperiment& experiment_;
   std::vector<PayloadModel> models_;
 };
@@ -82,8 +91,34 @@ void require_finite(const std::vector<double>& reading, const arm::Sensor& senso
                   run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
 }
 
-/// Thrown out of a run whose progress function ended it.
-struct ExperimentCancelled {};
+void compare_steps(SimulatedRun& run, const PayloadModel& model,
+                   const std::vector<arm::Sensor>& sensors, const SimulationOptions& options,
+                   const ProgressOf& progress_of) {
+  const auto& torque_N_m = run.record.torque_N_m;
+  const auto finer =
+      progress_of(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
+  run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
+                                        torque_N_m, options, finer)
+                       .relative_difference;
+  if (run.step_error.empty() && !sensors.empty()) throw arm::Cancelled{};
+}
+
+/// Adds the readings of the modes that the simulation does not have.
+void add_further_modes(SimulatedRun& run, const PayloadModel& model,
+                       const std::vector<arm::Sensor>& sensors, const SimulationOptions& options,
+                       const ProgressOf& progress_of) {
+  const std::size_t first = model.model.modes.size();
+  const std::size_t end = model.whole->modes.size();
+  const auto progress = progress_of(fmt::format("{}, further modes", run.id), end - first);
+  for (std::size_t mode = first; mode < end; ++mode) {
+    response::add_readings_of_mode(run.simulation.channels, *model.whole, mode, sensors,
+                                   run.simulation.hub_torque_N_m, options.sample_time_s,
+                                   options.hold);
+    if (!progress(static_cast<double>(mode + 1 - first) / static_cast<double>(end - first))) {
+      throw arm::Cancelled{};
+    }
+  }
+}
 
 /// Simulates a run that has its torque, or its loop.
 void step(SimulatedRun& run, const PayloadModel& model, const std::vector<arm::Sensor>& sensors,
@@ -98,16 +133,10 @@ void step(SimulatedRun& run, const PayloadModel& model, const std::vector<arm::S
     run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, options,
                                         std::ref(progress));
   }
-  if (!run.simulation.summary.completed) throw ExperimentCancelled{};
-  if (!compares_steps) return;
-  const auto finer =
-      progress_of(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
-  run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
-                                        torque_N_m, options, finer)
-                       .relative_difference;
-  if (run.step_error.empty() && !sensors.empty()) throw ExperimentCancelled{};
+  if (!run.simulation.summary.completed) throw arm::Cancelled{};
+  if (compares_steps) compare_steps(run, model, sensors, options, progress_of);
+  if (model.whole) add_further_modes(run, model, sensors, options, progress_of);
 }
-
 /// The random streams of a run begin here.
 std::uint32_t first_stream(std::size_t run) {
   return 1 + kStreamsOfARun * static_cast<std::uint32_t>(run);
@@ -168,85 +197,8 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
                                     frequencies_Hz(*plan.stepped_sine).size());
   run.measured = response::measure_stepped_sine(model.model, model.parts, run.sensors,
                                                 *plan.stepped_sine, stepping, progress);
-  if (!run.measured.summary.completed) throw ExperimentCancelled{};
+  if (!run.measured.summary.completed) throw arm::Cancelled{};
   return run;
-}
-
-/// The torque of a closed loop, which depends on the model, by a model of few modes.
-std::vector<double> torque_in_loop(const PlannedRun& plan, const arm::Arm& loaded,
-                                   const std::vector<arm::Sensor>& sensors, double period_s) {
-  constexpr int kModes = 10;
-  const ArmParts parts = response::take_apart(loaded);
-  const auto model = response::time_model(response::formulation_of_fit(loaded), parts, kModes, sensors);
-  return response::ArmSimulator(model, parts, sensors,
-                                response::options_of_fit(period_s, response::TorqueHold::zero))
-      .closed_loop_readings({*plan.controller, plan.reference.values})
-      .torque_N_m;
-}
-
-/// The truncation of one run with that number of modes, or a chosen one.
-response::Truncation truncation_of(const PlannedRun& plan, const arm::Arm& loaded,
-                                   const std::vector<arm::Sensor>& sensors,
-                                   const ExperimentOptions& options,
-                                   const response::ModeCount& count) {
-  if (plan.stepped_sine) {
-    return response::truncation_in_frequency(response::formulation_of_fit(loaded), sensors,
-                                             frequencies_Hz(*plan.stepped_sine),
-                                             options.static_correction, count);
-  }
-  if (plan.time_s.size() < 2) return {count.given.value_or(1), std::vector<double>(sensors.size())};
-  const double period_s = (plan.time_s.back() - plan.time_s.front()) /
-                          static_cast<double>(plan.time_s.size() - 1);
-  const auto torque_N_m = plan.controller ? torque_in_loop(plan, loaded, sensors, period_s)
-                                          : plan.torque.torque_N_m;
-  return response::truncation_in_time(loaded, sensors, torque_N_m, period_s, options.hold, count);
-}
-
-/// Modes with which all runs take some seconds: a sample costs as the square of the states, and with
-/// dry friction or forces along the beam several times that.
-int affordable_modes(const arm::Arm& arm, const std::vector<PlannedRun>& runs) {
-  constexpr double kProducts = 4e9;
-  constexpr double kOfNonlinearArm = 1e9;
-  constexpr double kLeast = 40.0;
-  double samples = 1.0;
-  for (const PlannedRun& run : runs) samples += static_cast<double>(run.time_s.size());
-  const ArmParts parts = response::take_apart(arm);
-  const bool is_linear =
-      parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
-  const double states = std::sqrt((is_linear ? kProducts : kOfNonlinearArm) / samples);
-  return static_cast<int>(
-      std::clamp(states / 2.0, kLeast, static_cast<double>(response::kMostChosenModes)));
-}
-
-/// The number of modes for all runs, and the largest errors with it.
-response::Truncation truncation_of(const arm::Arm& arm, const std::vector<PlannedRun>& runs,
-                                   const std::vector<arm::Sensor>& sensors,
-                                   const ExperimentOptions& options) {
-  response::Truncation all{options.modes.value_or(0), std::vector<double>(sensors.size(), 0.0),
-                           !options.modes};
-  const auto judge = [&](const response::ModeCount& count) {
-    for (const PlannedRun& run : runs) {
-      arm::Arm loaded = arm;
-      loaded.payload = run.payload.value_or(arm.payload);
-      try {
-        const auto one = truncation_of(run, loaded, sensors, options, count);
-        all.modes = std::max(all.modes, one.modes);
-        for (std::size_t k = 0; k < sensors.size(); ++k) {
-          all.errors[k] = std::max(all.errors[k], one.errors[k]);
-        }
-      } catch (const arm::InputError& error) {
-        throw arm::InputError(fmt::format("{}: {}", run.id, error.what()), error.key());
-      }
-    }
-  };
-  if (!options.modes) {
-    judge({.most = std::min(response::most_chosen_modes(options.formulation.name),
-                            affordable_modes(arm, runs))});
-  }
-  if (!options.modes && runs.size() == 1) return all;
-  all.errors.assign(sensors.size(), 0.0);
-  judge({.given = all.modes});
-  return all;
 }
 
 }  // namespace
@@ -301,8 +253,15 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
   const auto sensors = sensors_of(chosen);
   SimulatedExperiment experiment;
   experiment.sensors = sensors;
-  experiment.truncation = truncation_of(arm, runs, sensors, options);
-  Models models(arm, sensors, options, experiment);
+  ModeChoice choice;
+  try {
+    choice = choose_modes(arm, runs, sensors, options, progress_of);
+  } catch (const arm::Cancelled&) {
+    experiment.cancelled = true;
+    return experiment;
+  }
+  experiment.truncation = choice.truncation;
+  Models models(arm, sensors, options, choice, experiment);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& plan = runs[i];
     const arm::Payload payload = plan.payload.value_or(arm.payload);
@@ -314,8 +273,9 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
       } else {
         experiment.runs.push_back(
             run_in_time(plan, i, payload, model, chosen, options, progress_of));
+        experiment.runs.back().truncation = experiment.truncation;
       }
-    } catch (const ExperimentCancelled&) {
+    } catch (const arm::Cancelled&) {
       experiment.cancelled = true;
       return experiment;
     } catch (const arm::InputError& error) {

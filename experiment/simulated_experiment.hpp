@@ -33,6 +33,7 @@ struct SimulatedRun {
                                    ///< over the largest size; empty when not asked for
   std::optional<arm::Controller> controller = {};  ///< of a closed loop; its excitation is the
                                                    ///< record's reference
+  response::Truncation truncation = {};            ///< SimulatedExperiment::truncation
 };
 
 /// A run of a simulated experiment that measured a frequency response sine by sine.
@@ -57,9 +58,9 @@ struct ExperimentOptions {
 
 /// The runs of an experiment on one arm, and the model that they were simulated with.
 struct SimulatedExperiment {
-  std::string model;           ///< "exact_tf"
-  std::string settings;        ///< empty for exact_tf
-  int modes = 0;               ///< flexible ones kept
+  std::string model;     ///< "exact_tf"
+  std::string settings;  ///< empty for exact_tf
+  int modes = 0;         ///< flexible ones kept
   /// The largest errors of all runs; one a sensor of the experiment.
   response::Truncation truncation = {};
   std::vector<arm::Sensor> sensors = {};

@@ -147,8 +147,8 @@ void add_base(py::module_& module) {
           "and, with a beam, tip_acceleration.")
       .def(
           "state_space",
-          [](const Formulation& self, const py::object& sensors,
-             std::optional<int> modes, bool static_correction) {
+          [](const Formulation& self, const py::object& sensors, std::optional<int> modes,
+             bool static_correction) {
             const auto chosen = sensors_or_default(sensors, self.arm);
             const py::gil_scoped_release without_lock;
             return state_space_of(self, chosen, modes, static_correction);

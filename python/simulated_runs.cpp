@@ -52,6 +52,13 @@ void add_run(py::module_& module) {
       .def_readonly("step_error", &SimulatedRun::step_error,
                     "Relative difference of each sensor to a tenfold smaller step, a list; empty "
                     "unless check_step was asked for.")
+      .def_property_readonly(
+          "modes", [](const SimulatedRun& self) { return self.truncation.modes; },
+          "Flexible modes.")
+      .def_property_readonly(
+          "truncation_errors", [](const SimulatedRun& self) { return self.truncation.errors; },
+          "Estimated error of each sensor by the omitted modes, relative to its signal, a list; of "
+          "several runs the largest.")
       .def("__repr__", [](const SimulatedRun& self) {
         return fmt::format("<flexarm.SimulatedRun '{}': {} samples of {:g} s, {}>", self.id,
                            self.record.time_s.size(), measured::sampling_period_s(self.record),

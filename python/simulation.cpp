@@ -229,7 +229,9 @@ void add_experiment(py::module_& module) {
       .def_property_readonly(
           "truncation_errors",
           [](const Experiment& self) { return self.simulated.truncation.errors; },
-          "Estimated truncation error of each sensor relative to its signal, list of float.")
+          "Estimated error of each sensor by the omitted modes, relative to its signal, a list; "
+          "the "
+          "largest of all runs.")
       .def_property_readonly(
           "modes", [](const Experiment& self) { return self.simulated.modes; },
           "Flexible modes that were kept.")
@@ -258,7 +260,8 @@ constexpr const char* kSettings =
     "hub_velocity and, with a beam, tip_acceleration), duration_s (4), sample_time_s (0.0005), "
     "seed (1), noise (standard deviation relative to that of the signal), noise_of and "
     "quantisation (dicts by sensor, in its unit), formulation ('exact_tf') with elements, degree, "
-    "basis and functions, modes (None: as many as keep the truncation error below 1e-4), static_correction (False), hold ('zero' or 'first'), substeps "
+    "basis and functions, modes (None: as many as keep the truncation error below 1e-4), "
+    "static_correction (False), hold ('zero' or 'first'), substeps "
     "(0) and check_step (False). progress: a callable of the fraction done, None for a line on a "
     "terminal or in a notebook, False for none. Ctrl-C ends it. Raises InputError.";
 

@@ -2,19 +2,20 @@
 
 #include "arm/rigid_hub.hpp"
 #include "response/formulation_maker.hpp"
-#include "response/frequency/frequency_response.hpp"
 #include "response/frequency/frequency_grid.hpp"
+#include "response/frequency/frequency_response.hpp"
 #include "response/frequency/modal_response.hpp"
 #include "response/residual_mode.hpp"
 #include "response/settings.hpp"
+#include "response/time/single_modes.hpp"
 
 #include <Eigen/Core>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <numbers>
 
 namespace flexarm::response {
 
@@ -22,73 +23,22 @@ namespace {
 
 using Eigen::Index;
 
-/// One mode under a torque that is linear between samples.
-class ModeStepper {
- public:
-  ModeStepper(const arm::ModalModel& model, std::size_t i, double period_s)
-      : stiffness_(omega_squared(model, i)),
-        damping_(model.damping_rad_per_s[i * model.modes.size() + i]),
-        force_(model.modes[i].hub_slope / model.modal_mass_kg_m2) {
-    // X = (scale q, q'), torque, and its change over the sample.
-    scale_ = std::max(std::sqrt(std::abs(stiffness_)), 1.0);
-    Eigen::Matrix4d chain = Eigen::Matrix4d::Zero();
-    chain(0, 1) = scale_ * period_s;
-    chain(1, 0) = -stiffness_ / scale_ * period_s;
-    chain(1, 1) = -damping_ * period_s;
-    chain(1, 2) = force_ * period_s;
-    chain(2, 3) = 1.0;
-    step_ = chain.exp();
-  }
-
-  /// q, q' and q'' just after the torque at this sample, `torque_N_m`, has begun to act.
-  std::array<double, 3> at(double torque_N_m) const {
-    const double q = position_ / scale_;
-    return {q, velocity_, force_ * torque_N_m - stiffness_ * q - damping_ * velocity_};
-  }
-
-  void step(double torque_N_m, double change_N_m) {
-    const double position = step_(0, 0) * position_ + step_(0, 1) * velocity_ +
-                            step_(0, 2) * torque_N_m + step_(0, 3) * change_N_m;
-    velocity_ = step_(1, 0) * position_ + step_(1, 1) * velocity_ + step_(1, 2) * torque_N_m +
-                step_(1, 3) * change_N_m;
-    position_ = position;
-  }
-
- private:
-  double stiffness_;
-  double damping_;
-  double force_;
-  double scale_ = 1.0;
-  double position_ = 0.0;
-  double velocity_ = 0.0;
-  Eigen::Matrix4d step_;
-};
-
 /// Errors of keeping 0, 1, ... flexible modes of `model`: a row a number, a column a sensor.
 Eigen::MatrixXd errors_in_time(const arm::ModalModel& model, std::span<const arm::Sensor> sensors,
                                std::span<const double> torque_N_m, double period_s,
                                TorqueHold hold) {
   const auto modes = static_cast<Index>(model.modes.size());
-  const auto samples = static_cast<Index>(torque_N_m.size());
   const auto outputs = static_cast<Index>(sensors.size());
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(samples, outputs);
+  std::vector<std::vector<double>> sums(sensors.size(), std::vector<double>(torque_N_m.size()));
   Eigen::MatrixXd sizes(modes + 1, outputs);
   sizes.row(modes).setZero();
   for (Index i = modes; i-- > 0;) {
-    const auto& mode = model.modes[static_cast<std::size_t>(i)];
-    ModeStepper stepper(model, static_cast<std::size_t>(i), period_s);
-    for (Index k = 0; k < samples; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const auto motion = stepper.at(torque_N_m[at]);
-      for (Index j = 0; j < outputs; ++j) {
-        const auto sensor = static_cast<std::size_t>(j);
-        const auto derivatives = static_cast<std::size_t>(arm::derivative_order(sensors[sensor]));
-        sums(k, j) += mode.sensor_values[sensor] * motion[derivatives];
-      }
-      const bool changes = hold == TorqueHold::first && at + 1 < torque_N_m.size();
-      stepper.step(torque_N_m[at], changes ? torque_N_m[at + 1] - torque_N_m[at] : 0.0);
+    add_readings_of_mode(sums, model, static_cast<std::size_t>(i), sensors, torque_N_m, period_s,
+                         hold);
+    for (Index j = 0; j < outputs; ++j) {
+      const auto& sum = sums[static_cast<std::size_t>(j)];
+      sizes(i, j) = Eigen::VectorXd::Map(sum.data(), std::ssize(sum)).norm();
     }
-    sizes.row(i) = sums.colwise().norm();
   }
   // With n flexible modes kept, those from n + 1 on are left out.
   Eigen::MatrixXd errors = sizes.bottomRows(modes);
@@ -103,9 +53,24 @@ std::vector<double> row_of(const Eigen::MatrixXd& errors, Index row) {
   return {values.begin(), values.end()};
 }
 
-bool is_within(const Eigen::MatrixXd& errors, Index row) {
-  return errors.cols() == 0 || errors.row(row).maxCoeff() <= kTruncationTolerance;
+/// The fewest modes from `fewest` to `most` with which no error is above `tolerance`, or the most
+/// that there are.
+int fewest_within(const Eigen::MatrixXd& errors, double tolerance, int fewest, int most) {
+  const int last = std::min(most, static_cast<int>(errors.rows()) - 1);
+  int modes = fewest;
+  while (modes < last && (errors.row(modes).array() > tolerance).any()) ++modes;
+  return modes;
 }
+
+/// The samples from the first torque on.
+std::span<const double> judged_samples(std::span<const double> torque_N_m) {
+  const auto first = std::ranges::find_if(torque_N_m, [](double value) { return value != 0.0; });
+  const auto from = torque_N_m.subspan(static_cast<std::size_t>(first - torque_N_m.begin()));
+  return from.first(std::min(from.size(), kMostJudgedSamples));
+}
+
+/// So many times as many modes as are kept are known, for the tail of those left out.
+constexpr int kTail = 4;
 
 /// One of 1, 2, 3, 4, 6, 8, 12, 16, 24, ...: residual modes take some milliseconds each.
 int next_count(int count) {
@@ -132,23 +97,39 @@ Truncation truncation_in_time(const arm::Arm& arm, std::span<const arm::Sensor> 
   const AnyFormulation formulation = formulation_of_fit(arm);
   Truncation made{count.given.value_or(1), std::vector<double>(sensors.size(), 0.0), !count.given};
   if (!arm::has_beam(arm_of(formulation))) return made;
-  const auto judged = torque_N_m.first(std::min(torque_N_m.size(), kMostJudgedSamples));
+  const auto judged = judged_samples(torque_N_m);
   constexpr int kFirst = 32;  // modes
-  const int most_known = 2 * std::max(kFirst, count.given.value_or(count.most));
+  const int needed = count.given.value_or(count.most);
+  const int most_known =
+      std::max({kFirst, std::min(kTail * needed, kTail * kMostChosenModes), 2 * needed});
   for (int known = count.given ? most_known : kFirst;; known = std::min(2 * known, most_known)) {
     const auto model = modal_model(formulation, known, sensors, {});
     const Eigen::MatrixXd errors = errors_in_time(model, sensors, judged, period_s, hold);
     const int last = static_cast<int>(errors.rows()) - 1;
-    int modes = count.given.value_or(kFewestChosenModes);
-    while (!count.given && modes < std::min(count.most, last) && !is_within(errors, modes)) {
-      ++modes;
-    }
-    const bool is_known = 2 * modes <= known || known > last;
-    if (!count.given && !is_known) continue;
-    made.modes = std::max(1, std::min(modes, count.given ? modes : last));
-    made.errors = made.modes > last ? made.errors : row_of(errors, made.modes);
+    const int modes = std::min(count.given.value_or(fewest_within(errors, kTruncationTolerance,
+                                                                  kFewestChosenModes, count.most)),
+                               std::max(last, 1));
+    if (!count.given && kTail * modes > known && known < most_known && known <= last) continue;
+    made.modes = modes;
+    if (modes > last) return made;
+    made.errors = row_of(errors, modes);
+    const auto visible = static_cast<std::size_t>(fewest_within(errors, kVisiblePart, 0, modes));
+    made.visible_Hz = model.modes[visible].omega_rad_per_s / (2.0 * std::numbers::pi);
     return made;
   }
+}
+
+bool is_linear(const ArmParts& parts) {
+  return parts.hub.friction.empty() && parts.hub.smooth.empty() && parts.beam_forces.empty();
+}
+
+int affordable_modes(const ArmParts& parts, std::size_t samples, int least, int most) {
+  constexpr double kProducts = 4e9;
+  constexpr double kOfNonlinearArm = 1e9;
+  const double states = std::sqrt((is_linear(parts) ? kProducts : kOfNonlinearArm) /
+                                  std::max(1.0, static_cast<double>(samples)));
+  return static_cast<int>(
+      std::clamp(states / 2.0, static_cast<double>(least), static_cast<double>(most)));
 }
 
 Truncation truncation_in_frequency(const AnyFormulation& formulation,

@@ -1,5 +1,6 @@
 #include "diagnose/predictors/predictor.hpp"
 
+#include "arm/input_error.hpp"
 #include "compare/simulated_run.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
@@ -332,23 +333,30 @@ std::vector<double> errors_of_motion(const Experiment& experiment, const Observa
   return made;
 }
 
-/// `choice` with the errors of modes beyond kMostModes, too.
+/// `choice` with the errors of modes beyond kMostModes, too, for runs and arms that
+/// response::truncation_in_time takes.
 ModeChoice with_truncation(const Experiment& experiment, const Observations& observations,
-                           ModeChoice choice) {
+                           const arm::Deadline& deadline, ModeChoice choice) {
   if (is_driven_by_motion(experiment)) return choice;
-  for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+  for (std::size_t r = 0; r < experiment.runs.size() && !arm::is_over(deadline); ++r) {
     const auto& [run, data] = experiment.runs[r];
     if (run.kind != measured::RunKind::time) continue;
     const auto& record = std::get<measured::TimeRecord>(data);
-    arm::Arm with_payload = experiment.arm;
-    with_payload.payload = run.payload.value_or(experiment.arm.payload);
-    const auto truncation = response::truncation_in_time(
-        with_payload, sensors_of(record), record.torque_N_m, measured::sampling_period_s(record),
-        simulated_hold(run.torque_hold), {.given = choice.flexible_modes});
+    std::vector<double> errors;
+    try {
+      errors = response::truncation_in_time(arm_in(experiment, run), sensors_of(record),
+                                            record.torque_N_m, measured::sampling_period_s(record),
+                                            simulated_hold(run.torque_hold),
+                                            {.given = choice.flexible_modes})
+                   .errors;
+    } catch (const arm::InputError&) {
+      continue;
+    }
+    // The torque of a closed loop stands behind the sensors.
     std::size_t sensor = 0;
-    for (std::size_t c = 0; c < observations.channels.size(); ++c) {
+    for (std::size_t c = 0; c < observations.channels.size() && sensor < errors.size(); ++c) {
       if (observations.channels[c].run != r) continue;
-      choice.errors[c] = std::max(choice.errors[c], truncation.errors[sensor++]);
+      choice.errors[c] = std::max(choice.errors[c], errors[sensor++]);
     }
   }
   return choice;
@@ -396,7 +404,7 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
     }
     if (is_enough) break;
   }
-  return with_truncation(experiment, observations, std::move(choice));
+  return with_truncation(experiment, observations, deadline, std::move(choice));
 }
 
 }  // namespace flexarm::diagnose

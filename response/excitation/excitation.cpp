@@ -247,9 +247,9 @@ SampledTorque sampled(const Staircase& signal, const SampleGrid& grid) {
 /// Taps of shift registers of 2 to kMostRegisterLength stages whose sequence has the greatest
 /// period: bit k stands for stage k + 1.
 constexpr std::array<std::uint32_t, kMostRegisterLength - 1> kTaps = {
-    0x3,    0x6,    0xC,    0x14,   0x30,   0x60,    0xB8,    0x110,   0x240,    0x500,    0x829,
-    0x100D, 0x2015, 0x6000, 0xD008, 0x12000, 0x20400, 0x40023, 0x90000, 0x140000, 0x300000, 0x420000,
-    0xE10000};
+    0x3,     0x6,     0xC,     0x14,     0x30,     0x60,     0xB8,    0x110,
+    0x240,   0x500,   0x829,   0x100D,   0x2015,   0x6000,   0xD008,  0x12000,
+    0x20400, 0x40023, 0x90000, 0x140000, 0x300000, 0x420000, 0xE10000};
 
 SampledTorque sampled(const Prbs& signal, const SampleGrid& grid) {
   arm::require_in_range("prbs.amplitude", signal.amplitude_N_m, "N m", arm::kAnyFinite);
@@ -274,8 +274,8 @@ SampledTorque sampled(const Prbs& signal, const SampleGrid& grid) {
       const bool fed_back = std::popcount(stages & taps) % 2 == 1;
       stages = ((stages << 1U) | (fed_back ? 1U : 0U)) & all;
     }
-    result.torque_N_m[k] = (stages >> (length - 1U)) != 0U ? signal.amplitude_N_m
-                                                           : -signal.amplitude_N_m;
+    result.torque_N_m[k] =
+        (stages >> (length - 1U)) != 0U ? signal.amplitude_N_m : -signal.amplitude_N_m;
   }
   return result;
 }
@@ -295,8 +295,8 @@ SampledTorque sampled(const Sine& signal, const SampleGrid& grid) {
   for (std::size_t k = start; k < grid.samples; ++k) {
     const double cycles = signal.frequency_Hz * static_cast<double>(k - start) * grid.period_s;
     result.torque_N_m[k] =
-        signal.offset_N_m + signal.amplitude_N_m * std::sin(kTwoPi * (cycles - std::floor(cycles)) +
-                                                            signal.phase_rad);
+        signal.offset_N_m +
+        signal.amplitude_N_m * std::sin(kTwoPi * (cycles - std::floor(cycles)) + signal.phase_rad);
   }
   return result;
 }

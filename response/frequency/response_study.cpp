@@ -174,9 +174,9 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
   const auto judged_Hz = options.frequency_Hz.empty()
                              ? judged_frequencies_Hz(grid.from_Hz, grid.to_Hz)
                              : options.frequency_Hz;
-  study.truncation = truncation_in_frequency(
-      formulation, options.sensors, judged_Hz, options.static_correction,
-      {options.state_space_modes, most_chosen_modes(name(formulation))});
+  study.truncation =
+      truncation_in_frequency(formulation, options.sensors, judged_Hz, options.static_correction,
+                              {options.state_space_modes, most_chosen_modes(name(formulation))});
   auto model = modal_model(formulation, study.truncation->modes, options.sensors, {});
   study.truncation->modes = static_cast<int>(model.modes.size()) - 1;
   if (options.static_correction) {

@@ -19,7 +19,8 @@ namespace flexarm::response {
 struct ResponseOptions {
   std::vector<arm::Sensor> sensors;
   int modes = 5;  ///< flexible poles, and zeros of each sensor
-  /// Flexible modes of the state space; empty: chosen for the frequencies (response/truncation.hpp).
+  /// Flexible modes of the state space; empty: chosen for the frequencies
+  /// (response/truncation.hpp).
   std::optional<int> state_space_modes = {};
   std::optional<double> from_Hz;     ///< empty: well below the first pole
   std::optional<double> to_Hz;       ///< empty: midway between the last pole and the next
@@ -43,7 +44,7 @@ struct ResponseStudy {
   FrequencyResponse response;
   std::vector<std::vector<Resonance>> resonances;  ///< one list a sensor
   std::optional<StateSpace> state_space;
-  bool residual_mode = false;  ///< the state space has one
+  bool residual_mode = false;            ///< the state space has one
   std::optional<Truncation> truncation;  ///< of the state space
   std::optional<FrequencyResponse> state_space_response;
 };

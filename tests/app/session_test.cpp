@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 #include <random>
 #include <string>
-#include <vector>
-
 #include <sys/resource.h>
+#include <vector>
 
 namespace flexarm::testing_app {
 namespace {
@@ -89,6 +89,20 @@ class Session : public Flexarm {
     EXPECT_EQ(ended.errors, "");
     return Json::parse(text_of("d.json")).at("verdict").get<std::string>();
   }
+
+  /// Simulates and diagnoses; returns the processor time of both [s].
+  double expect_adequate(const RandomSession& session) const {
+    write("rig.toml", session.arm);
+    const double before_s = processor_s();
+    EXPECT_EQ(run({"simulate", "rig.toml", "--sensor", session.sensors, "--excitation",
+                   session.excitation, "--out", "simulated", "--force"})
+                  .status,
+              0);
+    EXPECT_EQ(verdict(), "adequate") << session.excitation << "\n" << session.arm;
+    const double used_s = processor_s() - before_s;
+    EXPECT_LT(used_s, kMost_s) << session.excitation << "\n" << session.arm;
+    return used_s;
+  }
 };
 
 TEST_F(Session, OfTheReadmeIsAdequate) {
@@ -108,22 +122,18 @@ TEST_F(Session, HiddenFrictionAndRootComplianceAreExplained) {
   EXPECT_EQ(verdict(), "explained");
 }
 
-TEST_F(Session, RandomArmsAreAdequate) {
-  // All 20 with FLEXARM_SESSIONS=20; the first of them take a minute under sanitizers.
-  const char* given = std::getenv("FLEXARM_SESSIONS");
-  const unsigned count = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 6;
-  for (unsigned seed = 1; seed <= count; ++seed) {
-    const auto [arm, sensors, excitation] = random_session(seed);
-    write("rig.toml", arm);
-    const double before_s = processor_s();
-    EXPECT_EQ(run({"simulate", "rig.toml", "--sensor", sensors, "--excitation", excitation, "--out",
-                   "simulated", "--force"})
-                  .status,
-              0);
-    EXPECT_EQ(verdict(), "adequate") << excitation << "\n" << arm;
-    const double used_s = processor_s() - before_s;
-    RecordProperty(fmt::format("processor_s_{}", seed), fmt::format("{:.1f}", used_s));
-    EXPECT_LT(used_s, kMost_s) << arm;
+TEST_F(Session, OfRandomArmsIsAdequate) {
+  for (unsigned seed = 1; seed <= 3; ++seed) expect_adequate(random_session(seed));
+}
+
+// Takes minutes. FLEXARM_SESSION_SEED is the first of twenty seeds.
+TEST_F(Session, DISABLED_OfTwentyRandomArmsIsAdequate) {
+  constexpr unsigned kSessions = 20;
+  const char* given = std::getenv("FLEXARM_SESSION_SEED");
+  const auto first = static_cast<unsigned>(given != nullptr ? std::stoul(given) : 1);
+  for (unsigned seed = first; seed < first + kSessions; ++seed) {
+    const double used_s = expect_adequate(random_session(seed));
+    std::cout << fmt::format("seed {}: {:.1f} s of processor\n", seed, used_s);
   }
 }
 

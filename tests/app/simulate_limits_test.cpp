@@ -150,8 +150,8 @@ TEST_F(SimulateLimits, OptionsThatWouldDoNothingAreRefused) {
 }
 
 TEST_F(SimulateLimits, ModesThatAModelDoesNotHaveAreSaid) {
-  const std::vector<std::string> fem = {"--formulation", "fem", "--elements", "1", "--degree", "3",
-                                        "--modes",       "5"};
+  const std::vector<std::string> fem = {"--formulation", "fem", "--elements", "1",
+                                        "--degree",      "3",   "--modes",    "5"};
   auto arguments = fem;
   arguments.insert(arguments.end(), {"--json", "out.json"});
   EXPECT_THAT(run_short(arguments).output,

@@ -23,8 +23,8 @@ std::string error_of(const std::function<void()>& action) {
 }
 
 TEST(ExcitationKeys, EveryExcitationGoesByItsName) {
-  EXPECT_THAT(excitation_names(), ElementsAre("bang-bang", "step", "random", "multisine",
-                                              "chirp", "staircase", "prbs", "sine"));
+  EXPECT_THAT(excitation_names(), ElementsAre("bang-bang", "step", "random", "multisine", "chirp",
+                                              "staircase", "prbs", "sine"));
   for (const auto& name_of_it : excitation_names()) {
     EXPECT_EQ(name(excitation_of(name_of_it)), name_of_it);
   }

@@ -336,9 +336,10 @@ TEST(Excitation, APrimePeriodThatCannotBeTransformedIsRefusedWithOneThatCan) {
     sample(Multisine{0.1, 1.0, 50.0}, {10'000'019, 0.002});
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "multisine: a period of 10000019 samples has a prime factor too large for the FFT; "
-                 "use 10077696 samples, 20155.392 s");
+    EXPECT_STREQ(
+        error.what(),
+        "multisine: a period of 10000019 samples has a prime factor too large for the FFT; "
+        "use 10077696 samples, 20155.392 s");
   }
 }
 

@@ -49,8 +49,11 @@ double nrmse_percent_of(const MeasuredSignal& signal) {
 std::vector<MeasuredSignal> signals_of(const measured::TimeRecord& record, bool closed_loop) {
   std::vector<MeasuredSignal> signals;
   for (const auto& channel : record.channels) {
-    signals.push_back({arm::to_string(channel.sensor), std::string(arm::unit(channel.sensor)),
-                       channel.values, {}, channel.left_out});
+    signals.push_back({arm::to_string(channel.sensor),
+                       std::string(arm::unit(channel.sensor)),
+                       channel.values,
+                       {},
+                       channel.left_out});
   }
   if (closed_loop) signals.push_back({"torque", "N m", record.torque_N_m, {}});
   return signals;
@@ -69,11 +72,15 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
   compared.free_start = run.run.initial == measured::InitialState::free;
   compared.time_s = record.time_s;
   compared.torque_N_m = record.torque_N_m;
+  if (compared.closed_loop) compared.reference = record.reference;
   compared.signals = signals_of(record, compared.closed_loop);
 
   std::vector<arm::Sensor> sensors;
   for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
-  const auto parts = response::take_apart(loaded);
+  auto parts = response::take_apart(loaded);
+  // A torque that is logged late acts at once in a loop.
+  const double logged_late_s = std::max(0.0, -parts.actuator.delay_s);
+  if (compared.closed_loop) parts.actuator.delay_s = std::max(0.0, parts.actuator.delay_s);
   const auto model = response::time_model(response::formulation_of_fit(parts.linear), parts,
                                           kSimulatedModes, sensors, true);
   const response::ArmSimulator simulation(
@@ -97,7 +104,6 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
       deviations(c * samples + static_cast<Index>(k)) = std::numeric_limits<double>::infinity();
     }
   }
-  const double logged_late_s = std::max(0.0, -parts.actuator.delay_s);
   const Eigen::VectorXd simulated =
       simulated_run(simulation, run, logged_late_s, measured, deviations, {});
   for (std::size_t c = 0; c < compared.signals.size(); ++c) {

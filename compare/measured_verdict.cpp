@@ -1,6 +1,7 @@
 #include "compare/measured_verdict.hpp"
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include "measured/spectra/tail_probability.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -59,10 +60,8 @@ MeasuredVerdict judge(const MeasuredComparison& measured) {
     }
   }
   if (verdict.judged_by_std > 0) {
-    const boost::math::chi_squared law(static_cast<double>(verdict.judged_by_std));
-    verdict.p_value = std::isfinite(verdict.chi_square)
-                          ? boost::math::cdf(boost::math::complement(law, verdict.chi_square))
-                          : 0.0;
+    verdict.p_value =
+        measured::chi_squared_tail(verdict.chi_square, static_cast<double>(verdict.judged_by_std));
   }
   if (verdict.judged_by_std + verdict.judged_by_percent > 0) {
     verdict.agreement = verdict.agrees_by_std() && verdict.agrees_by_percent()

@@ -92,7 +92,7 @@ TEST(RunOverlay, JsonHasTheRunAndItsVerdict) {
   EXPECT_EQ(arm["runs_left_out"], Json({"loaded"}));
   EXPECT_EQ(arm["measured_verdict"]["largest_difference_of"], "hub_angle of run steps");
   EXPECT_TRUE(arm["measured_verdict"]["chi_square"].is_null());
-  compared.measured.runs[0].signals[0].nrmse_percent = kNaN;
+  compared.measured.runs[0].signals[0].nrmse_percent = std::nan("");
   const auto constant = Json::parse(comparison_json({compared}));
   EXPECT_TRUE(constant["measured_verdict"].is_null());
   EXPECT_TRUE(

@@ -13,10 +13,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace flexarm::compare {
 
@@ -28,20 +30,24 @@ using Eigen::Index;
 /// signal: small enough that the prior of the state does not count beside a run of readings.
 constexpr double kReadingDeviation = 0.01;
 
+/// The values at samples that are readings.
+std::vector<double> readings_of(const std::vector<double>& values,
+                                const std::vector<std::size_t>& left_out) {
+  std::vector<double> readings;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::ranges::binary_search(left_out, k)) readings.push_back(values[k]);
+  }
+  return readings;
+}
+
 double nrmse_percent_of(const MeasuredSignal& signal) {
-  std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < signal.measured.size(); ++k) {
-    if (!std::ranges::binary_search(signal.left_out, k)) used.push_back(k);
-  }
-  double mean = 0.0;
-  for (const std::size_t k : used) mean += signal.measured[k] / static_cast<double>(used.size());
-  double error = 0.0;
-  double spread = 0.0;
-  for (const std::size_t k : used) {
-    error += std::pow(signal.measured[k] - signal.simulated[k], 2);
-    spread += std::pow(signal.measured[k] - mean, 2);
-  }
-  return spread > 0.0 ? 100.0 * std::sqrt(error / spread)
+  const auto measured = readings_of(signal.measured, signal.left_out);
+  const auto simulated = readings_of(signal.simulated, signal.left_out);
+  const auto count = std::ssize(measured);
+  const Eigen::Map<const Eigen::ArrayXd> y(measured.data(), count);
+  const Eigen::Map<const Eigen::ArrayXd> yhat(simulated.data(), count);
+  const double spread = count > 0 ? (y - y.mean()).matrix().norm() : 0.0;
+  return spread > 0.0 ? 100.0 * (y - yhat).matrix().norm() / spread
                       : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -96,7 +102,7 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
   for (Index c = 0; c < static_cast<Index>(sensors.size()); ++c) {
     const auto& channel = record.channels[static_cast<std::size_t>(c)];
     measured.segment(c * samples, samples) = Eigen::VectorXd::Map(channel.values.data(), samples);
-    const double size = measured::standard_deviation(channel.values);
+    const double size = measured::standard_deviation(readings_of(channel.values, channel.left_out));
     deviations.segment(c * samples, samples)
         .setConstant(size > 0.0 ? kReadingDeviation * size
                                 : std::numeric_limits<double>::infinity());

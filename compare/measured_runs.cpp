@@ -46,9 +46,10 @@ double nrmse_percent_of(const MeasuredSignal& signal) {
   const auto count = std::ssize(measured);
   const Eigen::Map<const Eigen::ArrayXd> y(measured.data(), count);
   const Eigen::Map<const Eigen::ArrayXd> yhat(simulated.data(), count);
+  constexpr double kRounding = 1e-12;  // of the mean of a constant signal
   const double spread = count > 0 ? (y - y.mean()).matrix().norm() : 0.0;
-  return spread > 0.0 ? 100.0 * (y - yhat).matrix().norm() / spread
-                      : std::numeric_limits<double>::quiet_NaN();
+  return spread > kRounding * y.matrix().norm() ? 100.0 * (y - yhat).matrix().norm() / spread
+                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The channels of the run without their simulation, the torque of a closed loop behind them.

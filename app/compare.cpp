@@ -316,7 +316,8 @@ Command add_compare(CLI::App& program) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser = program.add_subcommand(
       "compare",
-      "Compare poles, zeros, mode shapes and frequency responses of the three formulations");
+      "Compare the three formulations, and measured data with them: poles, zeros, shapes, "
+      "responses, time runs");
   add_arm_choice(*parser, arguments->arm);
   parser
       ->add_option("--measured", arguments->measured_file,
@@ -350,7 +351,7 @@ Command add_compare(CLI::App& program) {
   add_output_choice(*parser, arguments->output, {"Folder for CSV tables and figures"});
   add_report_choice(*parser, arguments->report);
   parser->footer(
-      "Exit status: 0 the formulations agree, and the measurement with exact_tf; 1 they do not; 2\n"
+      "Exit status: 0 the formulations agree, and the measurement with exact_tf; 1 they do not; 2 "
       "unusable input.\n" +
       example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run_compare(*arguments); }};

@@ -143,8 +143,10 @@ std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comp
                             const CompareArguments& arguments) {
   std::string text = verdict_paragraphs(comparison, compare::judge(measured)) + "\n";
   text += screen_rows(report::disagreements_table(comparison), kScreenRows, "--verbose");
-  text += describe(comparison.arm) + left_out_of_roots(arm) + "\n";
+  const bool has_models = !comparison.subjects.empty();
+  text += describe(comparison.arm) + (has_models ? left_out_of_roots(arm) : "") + "\n";
   text += measured_text(comparison, measured);
+  if (!has_models) return text;
   if (!arguments.verbose) {
     text += screen_rows(report::roots_overview(comparison), kScreenRows, "--verbose");
   }
@@ -153,7 +155,10 @@ std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comp
 }
 
 FolderKind comparison_folder_kind() {
-  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json", ".html"}, true};
+  return {"a comparison",
+          {"roots.csv", "measured-runs.csv"},
+          {".csv", ".svg", ".pdf", ".png", ".json", ".html"},
+          true};
 }
 
 /// The files of one arm.
@@ -164,9 +169,11 @@ std::vector<measured::NamedContent> files_of(const compare::Comparison& comparis
   const auto write_csv = [&](const std::string& name, const report::Table& table) {
     add_file(name + ".csv", report::to_csv(table), files);
   };
-  write_csv("roots", report::root_listing(comparison));
-  write_csv("shapes", report::shapes_listing(comparison));
-  write_csv("responses", report::responses_listing(comparison));
+  if (!comparison.subjects.empty()) {
+    write_csv("roots", report::root_listing(comparison));
+    write_csv("shapes", report::shapes_listing(comparison));
+    write_csv("responses", report::responses_listing(comparison));
+  }
   if (!measured.rows.empty()) {
     write_csv("measured", report::measured_table(measured.rows, comparison.subjects));
   }
@@ -272,7 +279,9 @@ int run_compare(CompareArguments arguments) {
   const auto options = options_of(arguments, measured);
   const std::string note = choose_arm(measured, arguments.arm);
   const auto arms = arguments.arm.arms();
-  for (const auto& arm : arms) arm::require_beam(arm, "compare");
+  for (const auto& arm : arms) {
+    if (!measured.is_in_time()) arm::require_beam(arm, "compare");
+  }
   for (const auto& [option, output] : {std::pair{"--json", &arguments.output.json_file},
                                        std::pair{"--out", &arguments.output.folder}}) {
     if (!output->empty()) require_no_input(option, *output, measured.files);

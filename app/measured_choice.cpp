@@ -47,6 +47,12 @@ bool has_payload_of(const measured::Run& run, const arm::Arm& arm) {
 
 }  // namespace
 
+bool MeasuredFile::is_in_time() const {
+  return !data.empty() && std::ranges::all_of(data, [](const measured::RunData& run) {
+    return std::holds_alternative<measured::TimeRecord>(run);
+  });
+}
+
 std::vector<arm::Sensor> MeasuredFile::sensors_with_zeros() const {
   std::vector<arm::Sensor> sensors;
   for (const auto& run : data) {

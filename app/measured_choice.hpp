@@ -20,6 +20,8 @@ struct MeasuredFile {
   std::vector<std::filesystem::path> files;  ///< that were read
   std::filesystem::path arm_file = {};       ///< that a measurement names; empty of other files
 
+  /// There are runs, and all are time runs.
+  bool is_in_time() const;
   /// The sensors whose zeros its tables have.
   std::vector<arm::Sensor> sensors_with_zeros() const;
 };

@@ -213,7 +213,7 @@ std::vector<NamedFigure> comparison_plots(const compare::Comparison& comparison,
     plots.push_back(pole_zero_map(comparison, i, measured.rows));
     plots.push_back(bode_diagram(comparison, comparison.responses[i]));
   }
-  plots.push_back(mode_shapes(comparison));
+  if (!comparison.modes.empty()) plots.push_back(mode_shapes(comparison));
   for (const auto& response : measured.responses) {
     if (has_measured_values(response)) plots.push_back(measured_bode(response));
   }

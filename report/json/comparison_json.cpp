@@ -143,6 +143,7 @@ Json responses_json(const compare::Comparison& comparison) {
 }
 
 Json finding_json(const compare::Finding& finding) {
+  if (finding.quantity.empty()) return nullptr;
   return {{"quantity", finding.quantity},
           {"first", finding.first},
           {"second", finding.second},

@@ -225,10 +225,9 @@ PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin
     }
   }
   document.add(std::move(further));
-  for (const NamedArm& arm : names) {
-    add_measured(document, arm);
-    add_roots(document, arm);
-  }
+  for (const NamedArm& arm : names) add_measured(document, arm);
+  if (arms.front().comparison.subjects.empty()) return document;
+  for (const NamedArm& arm : names) add_roots(document, arm);
   document.add(payload_section(arms));
   Section shapes{"shapes", "Mode shapes"};
   shapes.add(comparison_shapes(names));

@@ -223,6 +223,24 @@ TEST_F(CompareMeasured, SimulatesAClosedLoopByItsReference) {
   }
 }
 
+TEST_F(CompareMeasured, SimulatesRunsOfAHubWithoutABeam) {
+  write("rig.toml",
+        "name = \"axis\"\n[hub]\ninertia = 0.01\nviscous_friction = 0.02\n"
+        "[effects.coulomb_friction]\ntorque = 0.01\n");
+  ASSERT_EQ(run({"simulate", "rig.toml", "--duration", "2", "--sensor", "hub_angle", "--out", "s"})
+                .status,
+            0);
+  const Json comparison = compared("s/measurement.toml", {"--out", "out", "--report", "r.html"});
+  EXPECT_GT(comparison["measured_runs"][0]["channels"][0]["fit_percent"].get<double>(), 99.0);
+  EXPECT_THAT(text_, AllOf(testing::StartsWith("Measurement: agrees with exact_tf."),
+                           HasSubstr("Formulations: agree. Without a beam they are the same.")));
+  EXPECT_TRUE(comparison["worst"].is_null());
+  EXPECT_THAT(names_in("out"), Contains("measured-runs.csv"));
+  EXPECT_THAT(text_of("r.html"), HasSubstr("Measured and simulated runs"));
+  // Poles and responses need a beam.
+  EXPECT_EQ(run({"compare", "rig.toml"}).status, 2);
+}
+
 TEST_F(CompareMeasured, RunsOfAnotherPayloadAreNamed) {
   write("rig.toml", kUncertainArm);
   write_response("0.5,2.5,9.1");

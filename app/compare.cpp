@@ -360,7 +360,7 @@ Command add_compare(CLI::App& program) {
   add_output_choice(*parser, arguments->output, {"Folder for CSV tables and figures"});
   add_report_choice(*parser, arguments->report);
   parser->footer(
-      "Exit status: 0 the formulations agree, and the measurement with exact_tf; 1 they do not; 2 "
+      "Exit status: 0 the formulations agree, and the measurement with the model; 1 they do not; 2 "
       "unusable input.\n" +
       example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run_compare(*arguments); }};

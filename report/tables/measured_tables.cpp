@@ -112,7 +112,7 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows) {
 }
 
 Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs) {
-  Table table{"Measured time runs and their simulation by exact_tf with the effects of the arm",
+  Table table{"Measured time runs and their simulation with all effects of the arm",
               {{"run"}, {"start"}, {"loop"}, {"channel"}, {"fit", "%", 4}, {"NRMSE", "%", 3}}};
   for (const auto& run : runs) {
     for (const auto& signal : run.signals) {
@@ -144,8 +144,8 @@ Table measured_run_listing(const compare::MeasuredTimeRun& run) {
 
 std::string measured_verdict_line(const compare::MeasuredVerdict& verdict) {
   std::string line = verdict.agreement == compare::MeasuredAgreement::agrees
-                         ? "Measurement: agrees with exact_tf."
-                         : "Measurement: DIFFERS from exact_tf.";
+                         ? "Measurement: agrees with the model."
+                         : "Measurement: DIFFERS from the model.";
   if (verdict.judged_by_std > 0) {
     line += fmt::format(
         " Largest difference: {:.3g} standard deviations ({}); chi-square {:.3g} of {} number{}, "

@@ -29,7 +29,7 @@ Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs);
 Table measured_run_listing(const compare::MeasuredTimeRun& run);
 
 /// The verdict on a measurement of which something was compared, in one line: "Measurement: agrees
-/// with exact_tf." or "Measurement: DIFFERS from exact_tf.", and the largest differences.
+/// with exact_tf." or "Measurement: DIFFERS from the model.", and the largest differences.
 std::string measured_verdict_line(const compare::MeasuredVerdict& verdict);
 
 /// Measured frequency responses against each model's, one row each.

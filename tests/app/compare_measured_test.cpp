@@ -72,7 +72,7 @@ TEST_F(CompareMeasured, SaysHowManyStandardDeviationsEachFormulationIsOff) {
   EXPECT_EQ(verdict["verdict"], "differs");
   EXPECT_EQ(verdict["largest_deviation_of"], "pole 1 damping ratio");
   EXPECT_EQ(verdict["degrees_of_freedom"], 3);
-  EXPECT_THAT(text_, AllOf(testing::StartsWith("Measurement: DIFFERS from exact_tf."),
+  EXPECT_THAT(text_, AllOf(testing::StartsWith("Measurement: DIFFERS from the model."),
                            HasSubstr("\nFormulations: agree.")));
 }
 
@@ -112,7 +112,7 @@ TEST_F(CompareMeasured, ItsVerdictDecidesTheExitStatus) {
   write("near.csv", "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\n");
   write("far.csv", "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,17.20\n");
   EXPECT_EQ(compared("near.csv")["measured_verdict"]["verdict"], "agrees");
-  EXPECT_THAT(text_, testing::StartsWith("Measurement: agrees with exact_tf."));
+  EXPECT_THAT(text_, testing::StartsWith("Measurement: agrees with the model."));
   const Json far = compared("far.csv", {}, 1);
   EXPECT_EQ(far["verdict"], "agree");
   EXPECT_EQ(far["measured_verdict"]["verdict"], "differs");
@@ -169,7 +169,7 @@ TEST_F(CompareMeasured, PolesOfADampedArmAreComparedWithDampedPoles) {
   }
   EXPECT_GT(largest_shift, 30.0) << "the damped pole is not the undamped one";
   EXPECT_THAT(text_, AllOf(HasSubstr("natural frequencies |s|/2 pi of damped poles"),
-                           HasSubstr("Measurement: agrees with exact_tf.")));
+                           HasSubstr("Measurement: agrees with the model.")));
 }
 
 TEST_F(CompareMeasured, SimulatesTimeRunsOfTheMeasurementsOwnArm) {
@@ -178,7 +178,7 @@ TEST_F(CompareMeasured, SimulatesTimeRunsOfTheMeasurementsOwnArm) {
   const Ended ended = run({"compare", "--quick", "--poles", "2", "--measured", "s/measurement.toml",
                            "--json", "c.json", "--out", "out", "--report", "out/report.html"});
   ASSERT_EQ(ended.status, 0) << ended.errors;
-  EXPECT_THAT(ended.output, AllOf(testing::StartsWith("Measurement: agrees with exact_tf."),
+  EXPECT_THAT(ended.output, AllOf(testing::StartsWith("Measurement: agrees with the model."),
                                   HasSubstr("Formulations: agree."), HasSubstr("NRMSE")));
   const Json runs = Json::parse(text_of("c.json"))["comparisons"][0]["measured_runs"];
   ASSERT_EQ(runs.size(), 1U);
@@ -232,7 +232,7 @@ TEST_F(CompareMeasured, SimulatesRunsOfAHubWithoutABeam) {
             0);
   const Json comparison = compared("s/measurement.toml", {"--out", "out", "--report", "r.html"});
   EXPECT_GT(comparison["measured_runs"][0]["channels"][0]["fit_percent"].get<double>(), 99.0);
-  EXPECT_THAT(text_, AllOf(testing::StartsWith("Measurement: agrees with exact_tf."),
+  EXPECT_THAT(text_, AllOf(testing::StartsWith("Measurement: agrees with the model."),
                            HasSubstr("Formulations: agree. Without a beam they are the same.")));
   EXPECT_TRUE(comparison["worst"].is_null());
   EXPECT_THAT(names_in("out"), Contains("measured-runs.csv"));

@@ -103,16 +103,16 @@ TEST(MeasuredVerdictLine, SaysBothKindsOfDifferences) {
   compare::MeasuredComparison measured = sample_comparison().measured;
   EXPECT_EQ(
       measured_verdict_line(compare::judge(measured)),
-      "Measurement: agrees with exact_tf. Largest difference: 1.4 standard deviations (pole 1 "
+      "Measurement: agrees with the model. Largest difference: 1.4 standard deviations (pole 1 "
       "frequency); chi-square 1.96 of 1 number, probability 0.16, limit 0.046. Largest "
       "difference without a standard deviation: 4.5 % (hub_angle response of run sine), "
       "tolerance 5 %.");
   measured.tolerance_percent = 4.0;
   EXPECT_THAT(measured_verdict_line(compare::judge(measured)),
-              testing::StartsWith("Measurement: DIFFERS from exact_tf. "));
+              testing::StartsWith("Measurement: DIFFERS from the model. "));
   measured.rows.clear();
   EXPECT_EQ(measured_verdict_line(compare::judge(measured)),
-            "Measurement: DIFFERS from exact_tf. Largest difference: 4.5 % (hub_angle response of "
+            "Measurement: DIFFERS from the model. Largest difference: 4.5 % (hub_angle response of "
             "run sine), tolerance 4 %.");
 }
 

@@ -200,17 +200,25 @@ std::vector<measured::NamedContent> files_of(const compare::Comparison& comparis
   return files;
 }
 
-std::string next_step(const CompareArguments& arguments) {
+std::string next_step(const CompareArguments& arguments, bool is_measurement_far) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
-  if (arguments.output.folder.empty()) {
-    return fmt::format(
-        "{}next: write plots and tables with  flexarm compare{} --out compared\n",
-        details_line(arguments.verbose,
-                     "roots of each formulation, convergence, mode shapes, responses"),
-        arm);
+  std::string lines = arguments.output.folder.empty()
+                          ? details_line(arguments.verbose,
+                                         "roots of each formulation, convergence, mode shapes, "
+                                         "responses")
+                          : fmt::format("wrote {}\n", arguments.output.folder);
+  if (is_measurement_far && fs::path(arguments.measured_file).extension() == ".toml") {
+    lines += fmt::format("next: what does the simulation lack?  flexarm diagnose {}\n",
+                         arguments.measured_file);
+  } else if (arguments.output.folder.empty()) {
+    const std::string measured =
+        arguments.measured_file.empty() ? "" : " --measured " + arguments.measured_file;
+    lines += fmt::format("next: write plots and tables with  flexarm compare{}{} --out compared\n",
+                         arm, measured);
+  } else {
+    lines += fmt::format("next: the modes of this arm with  flexarm modes{}\n", arm);
   }
-  return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n",
-                     arguments.output.folder, arm);
+  return lines;
 }
 
 /// Of several arms: how many the measurement agrees with, and of how many the formulations agree.
@@ -290,7 +298,8 @@ int run_compare(CompareArguments arguments) {
   arguments.report.prepare(arguments.output.folder);
 
   std::string text;  // printed last: a reader that goes away costs no file
-  bool all_agree = true;
+  bool do_formulations_agree = true;
+  bool is_measurement_far = false;
   std::vector<report::ComparedArm> results;
   std::vector<measured::NamedContent> files;
   const auto comparisons = compare_with_progress(arms, options);
@@ -304,8 +313,9 @@ int run_compare(CompareArguments arguments) {
         files.push_back({folder / name, std::move(content)});
       }
     }
-    all_agree = all_agree && comparisons[i].verdict.agree &&
-                compare::judge(beside[i]).agreement != compare::MeasuredAgreement::differs;
+    do_formulations_agree = do_formulations_agree && comparisons[i].verdict.agree;
+    is_measurement_far = is_measurement_far ||
+                         compare::judge(beside[i]).agreement == compare::MeasuredAgreement::differs;
     results.push_back({comparisons[i], std::move(beside[i])});
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
@@ -315,8 +325,8 @@ int run_compare(CompareArguments arguments) {
         report::page::compare_page(results, page_origin(subject_of(arguments.arm))));
   }
   if (arms.size() > 1) text = summary_of_arms(results) + text;
-  print(text + note + next_step(arguments) + arguments.report.last_line());
-  return all_agree ? kSuccess : kFailure;
+  print(text + note + next_step(arguments, is_measurement_far) + arguments.report.last_line());
+  return do_formulations_agree && !is_measurement_far ? kSuccess : kFailure;
 }
 
 }  // namespace

@@ -203,6 +203,7 @@ TEST_F(CompareMeasured, ARunThatAnotherArmMadeDiffers) {
   ASSERT_EQ(run({"simulate", "rubbing.toml", "--duration", "2", "--out", "s"}).status, 0);
   const Json comparison = compared("s/measurement.toml", {}, 1);
   EXPECT_EQ(comparison["measured_verdict"]["verdict"], "differs");
+  EXPECT_THAT(text_, HasSubstr("flexarm diagnose s/measurement.toml\n"));
   EXPECT_THAT(text_, HasSubstr("note: the measurement names the arm s/arm.toml; compared with "
                                "rig.toml"));
 }

@@ -73,6 +73,10 @@ Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
           "Measurement: " + sentence + " Formulations: " + formulations.sentence};
 }
 
+bool is_measured(const std::vector<ComparedArm>& arms) {
+  return worst_measured(arms).agreement != compare::MeasuredAgreement::none;
+}
+
 std::string largest(const std::vector<ComparedArm>& arms, std::string_view part) {
   double worst = 0.0;
   bool is_any = false;
@@ -94,10 +98,6 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
       facts.push_back({label, std::move(text)});
     }
   };
-  add("largest difference, poles", "pole");
-  add("largest difference, zeros", "zero");
-  add("largest difference, mode shapes", "mode shape");
-  add("largest difference, responses", "response");
   double error = 0.0;
   std::size_t measured = 0;
   for (const ComparedArm& arm : arms) {
@@ -118,6 +118,10 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
     facts.push_back({"measured poles and zeros", fmt::format("{}", measured)});
     facts.push_back({"largest error of the model", number_of(error, 3) + " %"});
   }
+  add("largest difference, poles", "pole");
+  add("largest difference, zeros", "zero");
+  add("largest difference, mode shapes", "mode shape");
+  add("largest difference, responses", "response");
   return facts;
 }
 
@@ -205,7 +209,9 @@ Section payload_section(const std::vector<ComparedArm>& arms) {
 PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin& origin) {
   PageDocument document{origin.program,
                         origin.command,
-                        "Comparison of the formulations: " + origin.subject,
+                        (is_measured(arms) ? "Comparison with the measurement: "
+                                           : "Comparison of the formulations: ") +
+                            origin.subject,
                         comparison_verdict(arms),
                         {},
                         comparison_facts(arms),

@@ -155,9 +155,12 @@ std::string measured_verdict_line(const compare::MeasuredVerdict& verdict) {
         compare::MeasuredVerdict::kLeastProbability);
   }
   if (verdict.judged_by_percent > 0) {
-    line += fmt::format(" Largest difference{}: {:.3g} % ({}), tolerance {:g} %.",
-                        verdict.judged_by_std > 0 ? " without a standard deviation" : "",
-                        verdict.in_percent.size, verdict.in_percent.of, verdict.tolerance_percent);
+    const double percent = verdict.in_percent.size;
+    line += fmt::format(
+        " Largest difference{}: {} % ({}), tolerance {:g} %.",
+        verdict.judged_by_std > 0 ? " without a standard deviation" : "",
+        percent < 1000.0 ? fmt::format("{:.3g}", percent) : fmt::format("{:.0f}", percent),
+        verdict.in_percent.of, verdict.tolerance_percent);
   }
   return line;
 }

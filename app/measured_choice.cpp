@@ -47,6 +47,12 @@ bool has_payload_of(const measured::Run& run, const arm::Arm& arm) {
 
 }  // namespace
 
+bool MeasuredFile::is_in_time() const {
+  return !data.empty() && std::ranges::all_of(data, [](const measured::RunData& run) {
+    return std::holds_alternative<measured::TimeRecord>(run);
+  });
+}
+
 std::vector<arm::Sensor> MeasuredFile::sensors_with_zeros() const {
   std::vector<arm::Sensor> sensors;
   for (const auto& run : data) {
@@ -78,25 +84,29 @@ MeasuredFile read_measured_file(const std::string& file) {
 }
 
 compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
-                                          const compare::Comparison& comparison, bool alone) {
+                                          const compare::Comparison& comparison, bool alone,
+                                          const std::function<void()>& after_run) {
   compare::MeasuredComparison all;
   for (std::size_t i = 0; i < measured.runs.size(); ++i) {
-    const bool is_of_arm = has_payload_of(measured.runs[i], whole);
-    if (std::holds_alternative<measured::TimeRecord>(measured.data[i]) && (alone || is_of_arm)) {
-      all.runs.push_back(
-          compare::run_beside_simulation(whole, {measured.runs[i], measured.data[i]}));
-    }
-    if (!is_of_arm) continue;
-    if (const auto* table = std::get_if<measured::ModalTable>(&measured.data[i])) {
+    const measured::Run& run = measured.runs[i];
+    const measured::RunData& data = measured.data[i];
+    const bool is_of_arm = has_payload_of(run, whole);
+    const bool is_simulated = std::holds_alternative<measured::TimeRecord>(data);
+    if (!is_of_arm && !(is_simulated && alone)) {
+      all.runs_left_out.push_back(run.id);
+    } else if (is_simulated) {
+      all.runs.push_back(compare::run_beside_simulation(whole, {run, data}));
+    } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
       auto rows = compare::beside_model(*table, comparison);
       if (auto shapes = compare::correlate_shapes(rows, comparison)) {
         all.shapes.push_back(std::move(*shapes));
       }
       std::ranges::move(rows, std::back_inserter(all.rows));
-    } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&measured.data[i])) {
-      auto responses = compare::responses_beside_models(whole, measured.runs[i].id, *record);
+    } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
+      auto responses = compare::responses_beside_models(whole, run.id, *record);
       std::ranges::move(responses, std::back_inserter(all.responses));
     }
+    after_run();
   }
   return all;
 }

@@ -6,6 +6,7 @@
 #include "measured/files/run_data.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct MeasuredFile {
   std::vector<std::filesystem::path> files;  ///< that were read
   std::filesystem::path arm_file = {};       ///< that a measurement names; empty of other files
 
+  /// There are runs, and all are time runs.
+  bool is_in_time() const;
   /// The sensors whose zeros its tables have.
   std::vector<arm::Sensor> sensors_with_zeros() const;
 };
@@ -28,8 +31,10 @@ MeasuredFile read_measured_file(const std::string& file);
 
 /// The runs of an arm beside its comparison: those without a payload, those with the payload of
 /// the arm, and, where the arm is `alone`, `time` runs with any payload, which they are simulated
-/// with. `whole` has all effects, which measured responses and signals contain.
+/// with. `whole` has all effects, which measured responses and signals contain. `after_run` is
+/// called after each run.
 compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
-                                          const compare::Comparison& comparison, bool alone);
+                                          const compare::Comparison& comparison, bool alone,
+                                          const std::function<void()>& after_run);
 
 }  // namespace flexarm::app

@@ -19,7 +19,8 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"compare",
        "Comparison",
-       {"--measured", "--sensor", "--poles", "--zeros", "--tolerance", "--accuracy", "--quick"}},
+       {"--measured", "--measured-tolerance", "--sensor", "--poles", "--zeros", "--tolerance",
+        "--accuracy", "--quick"}},
       {"modes", "Modes", {"--modes", "--sensor", "--certificate"}},
       {"response",
        "Response",

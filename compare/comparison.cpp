@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 #include "assumed_modes/basis_report.hpp"
 #include "compare/damped_roots.hpp"
 #include "compare/finding.hpp"
@@ -136,10 +137,10 @@ void add_damped_roots(const std::vector<Subject>& subjects, const Options& optio
     for (const auto& row : comparison.roots) {
       if (!row.damped[k]) continue;
       const auto sensor = std::ranges::find(options.sensors, row.family.zeros_of);
-      auto& roots = row.family.zeros_of
-                        ? damped.zeros_rad_per_s[static_cast<std::size_t>(
-                              sensor - options.sensors.begin())]
-                        : damped.poles_rad_per_s;
+      auto& roots =
+          row.family.zeros_of
+              ? damped.zeros_rad_per_s[static_cast<std::size_t>(sensor - options.sensors.begin())]
+              : damped.poles_rad_per_s;
       std::ranges::move(with_conjugates(*row.damped[k]), std::back_inserter(roots));
     }
     comparison.damped.push_back(std::move(damped));
@@ -290,6 +291,11 @@ Comparison compare(const std::vector<Subject>& subjects, const Options& options)
 Comparison compare(const arm::Arm& whole, const Options& options) {
   require_valid(options);
   const arm::Arm arm = response::take_apart(whole).linear;
+  if (!arm::has_beam(arm)) {
+    Comparison without_models;
+    without_models.arm = arm;
+    return without_models;
+  }
   require_at_most("poles", options.poles, response::kMostRoots);
   require_at_most("zeros", options.non_collocated_zeros, response::kMostRoots);
   const int roots = std::max(options.poles, options.non_collocated_zeros);

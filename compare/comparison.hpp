@@ -93,7 +93,8 @@ struct Comparison {
 std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots);
 
 /// Compares the standard subjects of an arm; its nonlinear, actuator and sensor effects are left
-/// out, and `Comparison::arm` is the arm without them. Throws InputError for an unusable arm,
+/// out, and `Comparison::arm` is the arm without them. Of an arm without a beam, of which all are
+/// the same, there are no subjects, and nothing is compared. Throws InputError for an unusable arm,
 /// sensor or option, and for more roots than response::kMostRoots.
 Comparison compare(const arm::Arm& whole, const Options& options);
 

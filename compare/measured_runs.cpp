@@ -14,10 +14,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace flexarm::compare {
 
@@ -34,21 +36,26 @@ constexpr double kReadingDeviation = 0.01;
 constexpr int kLeastAffordable = 16;
 constexpr int kMostAffordable = 40;
 
+/// The values at samples that are readings.
+std::vector<double> readings_of(const std::vector<double>& values,
+                                const std::vector<std::size_t>& left_out) {
+  std::vector<double> readings;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::ranges::binary_search(left_out, k)) readings.push_back(values[k]);
+  }
+  return readings;
+}
+
 double nrmse_percent_of(const MeasuredSignal& signal) {
-  std::vector<std::size_t> used;
-  for (std::size_t k = 0; k < signal.measured.size(); ++k) {
-    if (!std::ranges::binary_search(signal.left_out, k)) used.push_back(k);
-  }
-  double mean = 0.0;
-  for (const std::size_t k : used) mean += signal.measured[k] / static_cast<double>(used.size());
-  double error = 0.0;
-  double spread = 0.0;
-  for (const std::size_t k : used) {
-    error += std::pow(signal.measured[k] - signal.simulated[k], 2);
-    spread += std::pow(signal.measured[k] - mean, 2);
-  }
-  return spread > 0.0 ? 100.0 * std::sqrt(error / spread)
-                      : std::numeric_limits<double>::quiet_NaN();
+  const auto measured = readings_of(signal.measured, signal.left_out);
+  const auto simulated = readings_of(signal.simulated, signal.left_out);
+  const auto count = std::ssize(measured);
+  const Eigen::Map<const Eigen::ArrayXd> y(measured.data(), count);
+  const Eigen::Map<const Eigen::ArrayXd> yhat(simulated.data(), count);
+  constexpr double kRounding = 1e-12;  // of the mean of a constant signal
+  const double spread = count > 0 ? (y - y.mean()).matrix().norm() : 0.0;
+  return spread > kRounding * y.matrix().norm() ? 100.0 * (y - yhat).matrix().norm() / spread
+                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The channels of the run without their simulation, the torque of a closed loop behind them.
@@ -78,11 +85,15 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
   compared.free_start = run.run.initial == measured::InitialState::free;
   compared.time_s = record.time_s;
   compared.torque_N_m = record.torque_N_m;
+  if (compared.closed_loop) compared.reference = record.reference;
   compared.signals = signals_of(record, compared.closed_loop);
 
   std::vector<arm::Sensor> sensors;
   for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
-  const auto parts = response::take_apart(loaded);
+  auto parts = response::take_apart(loaded);
+  // A torque that is logged late acts at once in a loop.
+  const double logged_late_s = std::max(0.0, -parts.actuator.delay_s);
+  if (compared.closed_loop) parts.actuator.delay_s = std::max(0.0, parts.actuator.delay_s);
   const double period_s = measured::sampling_period_s(record);
   const auto hold = run.run.torque_hold == measured::TorqueHold::zero ? response::TorqueHold::zero
                                                                       : response::TorqueHold::first;
@@ -102,7 +113,7 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
   for (Index c = 0; c < static_cast<Index>(sensors.size()); ++c) {
     const auto& channel = record.channels[static_cast<std::size_t>(c)];
     measured.segment(c * samples, samples) = Eigen::VectorXd::Map(channel.values.data(), samples);
-    const double size = measured::standard_deviation(channel.values);
+    const double size = measured::standard_deviation(readings_of(channel.values, channel.left_out));
     deviations.segment(c * samples, samples)
         .setConstant(size > 0.0 ? kReadingDeviation * size
                                 : std::numeric_limits<double>::infinity());
@@ -110,7 +121,6 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
       deviations(c * samples + static_cast<Index>(k)) = std::numeric_limits<double>::infinity();
     }
   }
-  const double logged_late_s = std::max(0.0, -parts.actuator.delay_s);
   const Eigen::VectorXd simulated =
       simulated_run(simulation, run, logged_late_s, measured, deviations, {});
   for (std::size_t c = 0; c < compared.signals.size(); ++c) {

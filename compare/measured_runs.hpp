@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "measured/files/time_record.hpp"
 #include "measured/run_identification.hpp"
 
 #include <cstddef>
@@ -30,6 +31,7 @@ struct MeasuredTimeRun {
   bool free_start = false;  ///< the initial state is the most likely one
   std::vector<double> time_s;
   std::vector<double> torque_N_m;  ///< recorded
+  measured::Reference reference;   ///< of a closed loop
   std::vector<MeasuredSignal> signals;
 };
 

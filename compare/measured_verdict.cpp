@@ -1,6 +1,7 @@
 #include "compare/measured_verdict.hpp"
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include "measured/spectra/tail_probability.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,32 +16,37 @@ std::string name_of(const MeasuredRow& row) {
                      row.order ? " " : "", row.order ? fmt::to_string(*row.order) : "");
 }
 
-void add_deviation(double deviation, const std::string& what, MeasuredVerdict& verdict) {
-  if (!std::isfinite(deviation)) return;
-  ++verdict.judged;
-  verdict.chi_square += deviation * deviation;
-  if (verdict.worst_std_of.empty() || std::abs(deviation) > verdict.worst_std) {
-    verdict.worst_std = std::abs(deviation);
-    verdict.worst_std_of = what;
-  }
+void keep_largest(double difference, const std::string& of, LargestDifference& largest) {
+  if (!largest.of.empty() && std::abs(difference) <= largest.size) return;
+  largest = {std::abs(difference), of};
 }
 
-void add_percent(double percent, const std::string& what, MeasuredVerdict& verdict) {
+void add_deviation(double deviation, const std::string& of, MeasuredVerdict& verdict) {
+  if (!std::isfinite(deviation)) return;
+  ++verdict.judged_by_std;
+  verdict.chi_square += deviation * deviation;
+  keep_largest(deviation, of, verdict.in_std);
+}
+
+void add_percent(double percent, const std::string& of, MeasuredVerdict& verdict) {
   if (!std::isfinite(percent)) return;
-  if (verdict.worst_percent_of.empty() || std::abs(percent) > verdict.worst_percent) {
-    verdict.worst_percent = std::abs(percent);
-    verdict.worst_percent_of = what;
-  }
+  ++verdict.judged_by_percent;
+  keep_largest(percent, of, verdict.in_percent);
 }
 
 }  // namespace
 
 MeasuredVerdict judge(const MeasuredComparison& measured) {
   MeasuredVerdict verdict;
+  verdict.tolerance_percent = measured.tolerance_percent;
   for (const auto& row : measured.rows) {
-    add_deviation(row.combined_deviation, name_of(row) + " frequency", verdict);
+    const std::string frequency = name_of(row) + " frequency";
+    if (std::isfinite(row.combined_deviation)) {
+      add_deviation(row.combined_deviation, frequency, verdict);
+    } else {
+      add_percent(row.error_percent, frequency, verdict);
+    }
     add_deviation(row.damping_deviation, name_of(row) + " damping ratio", verdict);
-    add_percent(row.error_percent, name_of(row) + " frequency", verdict);
   }
   for (const auto& response : measured.responses) {
     const std::string run = response.run.empty() ? "" : " of run " + response.run;
@@ -53,15 +59,14 @@ MeasuredVerdict judge(const MeasuredComparison& measured) {
                   verdict);
     }
   }
-  if (verdict.judged > 0) {
-    const boost::math::chi_squared law(static_cast<double>(verdict.judged));
-    verdict.p_value = std::isfinite(verdict.chi_square)
-                          ? boost::math::cdf(boost::math::complement(law, verdict.chi_square))
-                          : 0.0;
-    verdict.agreement = verdict.p_value >= kLeastProbability ? MeasuredAgreement::agrees
-                                                             : MeasuredAgreement::differs;
-  } else if (!verdict.worst_percent_of.empty()) {
-    verdict.agreement = MeasuredAgreement::not_judged;
+  if (verdict.judged_by_std > 0) {
+    verdict.p_value =
+        measured::chi_squared_tail(verdict.chi_square, static_cast<double>(verdict.judged_by_std));
+  }
+  if (verdict.judged_by_std + verdict.judged_by_percent > 0) {
+    verdict.agreement = verdict.agrees_by_std() && verdict.agrees_by_percent()
+                            ? MeasuredAgreement::agrees
+                            : MeasuredAgreement::differs;
   }
   return verdict;
 }

@@ -7,8 +7,8 @@
 #include "report/figures/mode_shape_figure.hpp"
 #include "report/figures/overlay_style.hpp"
 #include "report/figures/pole_zero_figure.hpp"
+#include "report/figures/run_overlay_figure.hpp"
 #include "report/figures/sensor_label.hpp"
-#include "report/figures/time_figure.hpp"
 #include "report/tables/response_tables.hpp"
 #include "report/words.hpp"
 
@@ -179,23 +179,6 @@ bool has_measured_values(const compare::MeasuredResponse& compared) {
   });
 }
 
-NamedFigure time_overlay(const compare::MeasuredTimeRun& run) {
-  TimePlot plot;
-  plot.title = "Measured and simulated: " + run.run;
-  plot.time_s = run.time_s;
-  plot.panels.push_back({"torque", "N m", {{"", run.torque_N_m}}});
-  if (run.closed_loop) plot.panels.clear();
-  for (const auto& signal : run.signals) {
-    std::vector<double> measured = signal.measured;
-    for (const std::size_t k : signal.left_out) measured[k] = kMissing;
-    plot.panels.push_back({in_words(signal.sensor), signal.unit,
-                           {{"measured", std::move(measured)},
-                            {fmt::format("simulated, fit {:.4g} %", signal.fit_percent()),
-                             signal.simulated}}});
-  }
-  return {"overlay-" + run.run, time_figure(plot)};
-}
-
 NamedFigure mode_shapes(const compare::Comparison& comparison) {
   ModeShapePlot plot;
   plot.title = "Mode shapes, modal mass I_T";
@@ -230,11 +213,13 @@ std::vector<NamedFigure> comparison_plots(const compare::Comparison& comparison,
     plots.push_back(pole_zero_map(comparison, i, measured.rows));
     plots.push_back(bode_diagram(comparison, comparison.responses[i]));
   }
-  plots.push_back(mode_shapes(comparison));
+  if (!comparison.modes.empty()) plots.push_back(mode_shapes(comparison));
   for (const auto& response : measured.responses) {
     if (has_measured_values(response)) plots.push_back(measured_bode(response));
   }
-  for (const auto& run : measured.runs) plots.push_back(time_overlay(run));
+  for (const auto& run : measured.runs) {
+    plots.push_back({"overlay-" + run.run, run_overlay_figure(run)});
+  }
   for (std::size_t i = 0; i < measured.shapes.size(); ++i) {
     plots.push_back(
         {i == 0 ? "mac" : fmt::format("mac-{}", i + 1), mac_figure(measured.shapes[i])});

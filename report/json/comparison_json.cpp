@@ -5,6 +5,8 @@
 #include "report/json/json_document.hpp"
 #include "report/tables/zero_kind.hpp"
 
+#include <algorithm>
+
 namespace flexarm::report {
 
 namespace {
@@ -141,6 +143,7 @@ Json responses_json(const compare::Comparison& comparison) {
 }
 
 Json finding_json(const compare::Finding& finding) {
+  if (finding.quantity.empty()) return nullptr;
   return {{"quantity", finding.quantity},
           {"first", finding.first},
           {"second", finding.second},
@@ -258,24 +261,29 @@ Json measured_runs_json(const std::vector<compare::MeasuredTimeRun>& runs) {
   return all;
 }
 
+const char* word_of(compare::MeasuredAgreement agreement) {
+  return agreement == compare::MeasuredAgreement::agrees ? "agrees" : "differs";
+}
+
 Json measured_verdict_json(const compare::MeasuredVerdict& verdict) {
-  using enum compare::MeasuredAgreement;
-  if (verdict.agreement == none) return nullptr;
-  const bool is_judged = verdict.agreement != not_judged;
-  const auto judged = [&](double value) { return is_judged ? Json(value) : Json(nullptr); };
-  return {{"verdict", !is_judged                       ? "not judged"
-                      : verdict.agreement == agrees ? "agrees"
-                                                    : "differs"},
-          {"chi_square", judged(verdict.chi_square)},
-          {"degrees_of_freedom", verdict.judged},
-          {"p_value", judged(verdict.p_value)},
-          {"largest_deviation_std", judged(verdict.worst_std)},
-          {"largest_deviation_of", is_judged ? Json(verdict.worst_std_of) : Json(nullptr)},
-          {"largest_difference_percent",
-           verdict.worst_percent_of.empty() ? Json(nullptr) : Json(verdict.worst_percent)},
-          {"largest_difference_of", verdict.worst_percent_of.empty()
-                                        ? Json(nullptr)
-                                        : Json(verdict.worst_percent_of)}};
+  if (verdict.agreement == compare::MeasuredAgreement::none) return nullptr;
+  const auto by_std = [&](double value) {
+    return verdict.judged_by_std > 0 ? Json(value) : Json(nullptr);
+  };
+  const auto name = [](const compare::LargestDifference& largest) {
+    return largest.of.empty() ? Json(nullptr) : Json(largest.of);
+  };
+  const bool is_by_percent = verdict.judged_by_percent > 0;
+  return {
+      {"verdict", word_of(verdict.agreement)},
+      {"chi_square", by_std(verdict.chi_square)},
+      {"degrees_of_freedom", verdict.judged_by_std},
+      {"p_value", by_std(verdict.p_value)},
+      {"largest_deviation_std", by_std(verdict.in_std.size)},
+      {"largest_deviation_of", name(verdict.in_std)},
+      {"largest_difference_percent", is_by_percent ? Json(verdict.in_percent.size) : Json(nullptr)},
+      {"largest_difference_of", name(verdict.in_percent)},
+      {"tolerance_percent", verdict.tolerance_percent}};
 }
 
 Json compared_json(const ComparedArm& compared) {
@@ -299,6 +307,7 @@ Json compared_json(const ComparedArm& compared) {
       {"measured", measured_json(compared.measured.rows, comparison.subjects)},
       {"measured_responses", measured_responses_json(compared.measured.responses)},
       {"measured_runs", measured_runs_json(compared.measured.runs)},
+      {"runs_left_out", compared.measured.runs_left_out},
       {"mac", mac_json(compared.measured.shapes)},
       {"findings", findings},
   };
@@ -307,14 +316,20 @@ Json compared_json(const ComparedArm& compared) {
 }  // namespace
 
 std::string comparison_json(const std::vector<ComparedArm>& arms) {
+  using enum compare::MeasuredAgreement;
   Json comparisons = Json::array();
   bool agree = true;
+  compare::MeasuredAgreement measured = none;
   for (const auto& compared : arms) {
     comparisons.push_back(compared_json(compared));
     agree = agree && compared.comparison.verdict.agree;
+    measured = std::max(measured, compare::judge(compared.measured).agreement);
   }
-  return json_document("flexarm.compare/1",
-                       {{"verdict", agree ? "agree" : "disagree"}, {"comparisons", comparisons}});
+  return json_document(
+      "flexarm.compare/1",
+      {{"verdict", agree ? "agree" : "disagree"},
+       {"measured_verdict", measured == none ? Json(nullptr) : Json(word_of(measured))},
+       {"comparisons", comparisons}});
 }
 
 }  // namespace flexarm::report

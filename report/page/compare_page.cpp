@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -28,17 +29,15 @@ const ComparedArm& worst_of(const std::vector<ComparedArm>& arms) {
   });
 }
 
-/// The arm whose measurement is least likely, or farthest off in per cent.
+/// Of the arm that the measurement is farthest from.
 compare::MeasuredVerdict worst_measured(const std::vector<ComparedArm>& arms) {
   compare::MeasuredVerdict worst;
+  const auto order = [](const compare::MeasuredVerdict& verdict) {
+    return std::tuple(verdict.agreement, verdict.in_std.size, verdict.in_percent.size);
+  };
   for (const ComparedArm& arm : arms) {
     const auto verdict = compare::judge(arm.measured);
-    const bool is_worse = verdict.agreement != worst.agreement
-                              ? verdict.agreement > worst.agreement
-                              : verdict.worst_std > worst.worst_std ||
-                                    (verdict.judged == 0 &&
-                                     verdict.worst_percent > worst.worst_percent);
-    if (is_worse) worst = verdict;
+    if (order(verdict) > order(worst)) worst = verdict;
   }
   return worst;
 }
@@ -66,19 +65,16 @@ Verdict formulations_verdict(const std::vector<ComparedArm>& arms) {
 Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
   const Verdict formulations = formulations_verdict(arms);
   const auto measured = worst_measured(arms);
-  using enum compare::MeasuredAgreement;
-  if (measured.agreement == none) return formulations;
-  const bool is_bad = formulations.status == Status::bad;
-  const Status status = measured.agreement == differs ? Status::bad
-                        : is_bad                      ? Status::bad
-                        : measured.agreement == agrees ? Status::good
-                                                       : Status::neutral;
-  const std::string word = measured.agreement == differs  ? "measurement differs"
-                           : measured.agreement == agrees ? "measurement agrees"
-                                                          : "measurement not judged";
+  if (measured.agreement == compare::MeasuredAgreement::none) return formulations;
+  const bool agrees = measured.agreement == compare::MeasuredAgreement::agrees;
   const std::string sentence = text_in_words(behind_colon(measured_verdict_line(measured)));
-  return {status, word + ", " + formulations.word,
+  return {agrees ? formulations.status : Status::bad,
+          (agrees ? "measurement agrees, " : "measurement differs, ") + formulations.word,
           "Measurement: " + sentence + " Formulations: " + formulations.sentence};
+}
+
+bool is_measured(const std::vector<ComparedArm>& arms) {
+  return worst_measured(arms).agreement != compare::MeasuredAgreement::none;
 }
 
 std::string largest(const std::vector<ComparedArm>& arms, std::string_view part) {
@@ -102,10 +98,6 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
       facts.push_back({label, std::move(text)});
     }
   };
-  add("largest difference, poles", "pole");
-  add("largest difference, zeros", "zero");
-  add("largest difference, mode shapes", "mode shape");
-  add("largest difference, responses", "response");
   double error = 0.0;
   std::size_t measured = 0;
   for (const ComparedArm& arm : arms) {
@@ -126,6 +118,10 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
     facts.push_back({"measured poles and zeros", fmt::format("{}", measured)});
     facts.push_back({"largest error of the model", number_of(error, 3) + " %"});
   }
+  add("largest difference, poles", "pole");
+  add("largest difference, zeros", "zero");
+  add("largest difference, mode shapes", "mode shape");
+  add("largest difference, responses", "response");
   return facts;
 }
 
@@ -213,31 +209,31 @@ Section payload_section(const std::vector<ComparedArm>& arms) {
 PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin& origin) {
   PageDocument document{origin.program,
                         origin.command,
-                        "Comparison of the formulations: " + origin.subject,
+                        (is_measured(arms) ? "Comparison with the measurement: "
+                                           : "Comparison of the formulations: ") +
+                            origin.subject,
                         comparison_verdict(arms),
                         {},
                         comparison_facts(arms),
                         {}};
   const auto names = named(arms);
+  auto runs = measured_runs(names);
   auto measured = measured_responses(names);
   auto responses = comparison_responses(names);
-  if (auto runs = measured_runs(names); !runs.views.empty()) {
-    Section section{"measured-runs", "Measured and simulated runs"};
-    section.add(std::move(runs));
-    document.add(std::move(section));
+  // What was measured comes first; the rest in sections.
+  Section further{"responses", "Frequency responses"};
+  for (CurvesBlock* block : {&runs, &measured, &responses}) {
+    if (block->views.empty()) continue;
+    if (document.headline) {
+      further.add(std::move(*block));
+    } else {
+      document.headline = std::move(*block);
+    }
   }
-  if (!measured.views.empty()) {
-    document.headline = std::move(measured);
-    Section section{"responses", "Frequency responses"};
-    section.add(std::move(responses));
-    document.add(std::move(section));
-  } else if (!responses.views.empty()) {
-    document.headline = std::move(responses);
-  }
-  for (const NamedArm& arm : names) {
-    add_measured(document, arm);
-    add_roots(document, arm);
-  }
+  document.add(std::move(further));
+  for (const NamedArm& arm : names) add_measured(document, arm);
+  if (arms.front().comparison.subjects.empty()) return document;
+  for (const NamedArm& arm : names) add_roots(document, arm);
   document.add(payload_section(arms));
   Section shapes{"shapes", "Mode shapes"};
   shapes.add(comparison_shapes(names));

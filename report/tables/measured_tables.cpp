@@ -44,7 +44,7 @@ std::string sensors_of(const compare::MeasuredShape& shape) {
 
 Table measured_table(const std::vector<compare::MeasuredRow>& rows,
                      const std::vector<std::string>& models) {
-  Table table{"Measured and exact_tf: natural frequencies |s|/2 pi of damped poles and zeros (antiresonances)",
+  Table table{"Measured and exact_tf: natural frequencies |s|/2 pi of damped poles and zeros",
               {{"feature"}, {"no."}, {"sensor"}, {"measured", "Hz", 5}}};
   const bool has_std = has_measured_std(rows);
   const bool has_arm_std = has_model_std(rows);
@@ -84,7 +84,8 @@ Table measured_damping_table(const std::vector<compare::MeasuredRow>& rows) {
                {"difference", "std", 3}}};
   for (const auto& row : rows) {
     if (!row.measured.damping_ratio) continue;
-    table.add_row({std::string(measured::to_string(row.measured.feature)), order_cell(row), sensor_cell(row), *row.measured.damping_ratio,
+    table.add_row({std::string(measured::to_string(row.measured.feature)), order_cell(row),
+                   sensor_cell(row), *row.measured.damping_ratio,
                    row.measured.damping_ratio_std.value_or(kMissing),
                    row.model_damping_ratio.value_or(kMissing), row.damping_deviation});
   }
@@ -111,7 +112,7 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows) {
 }
 
 Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs) {
-  Table table{"Measured time runs and their simulation by exact_tf, with the effects of the arm",
+  Table table{"Measured time runs and their simulation with all effects of the arm",
               {{"run"}, {"start"}, {"loop"}, {"channel"}, {"fit", "%", 4}, {"NRMSE", "%", 3}}};
   for (const auto& run : runs) {
     for (const auto& signal : run.signals) {
@@ -142,22 +143,26 @@ Table measured_run_listing(const compare::MeasuredTimeRun& run) {
 }
 
 std::string measured_verdict_line(const compare::MeasuredVerdict& verdict) {
-  const std::string percent =
-      verdict.worst_percent_of.empty()
-          ? ""
-          : fmt::format(" Largest difference in per cent: {:.3g} % ({}).", verdict.worst_percent,
-                        verdict.worst_percent_of);
-  if (verdict.agreement == compare::MeasuredAgreement::not_judged) {
-    return "Measurement: no standard deviation is known, therefore not judged." + percent;
+  std::string line = verdict.agreement == compare::MeasuredAgreement::agrees
+                         ? "Measurement: agrees with the model."
+                         : "Measurement: DIFFERS from the model.";
+  if (verdict.judged_by_std > 0) {
+    line += fmt::format(
+        " Largest difference: {:.3g} standard deviations ({}); chi-square {:.3g} of {} number{}, "
+        "probability {:.2g}, limit {:.2g}.",
+        verdict.in_std.size, verdict.in_std.of, verdict.chi_square, verdict.judged_by_std,
+        verdict.judged_by_std == 1 ? "" : "s", verdict.p_value,
+        compare::MeasuredVerdict::kLeastProbability);
   }
-  const bool agrees = verdict.agreement == compare::MeasuredAgreement::agrees;
-  return fmt::format(
-      "Measurement: {} exact_tf within its standard deviations: chi-square {:.3g} of {} "
-      "number{}, probability {:.2g} (limit {:.2g}, as of one number at 2 standard deviations); "
-      "farthest at {:.3g} ({}).{}",
-      agrees ? "agrees with" : "DIFFERS from", verdict.chi_square, verdict.judged,
-      verdict.judged == 1 ? "" : "s", verdict.p_value, compare::kLeastProbability,
-      verdict.worst_std, verdict.worst_std_of, percent);
+  if (verdict.judged_by_percent > 0) {
+    const double percent = verdict.in_percent.size;
+    line += fmt::format(
+        " Largest difference{}: {} % ({}), tolerance {:g} %.",
+        verdict.judged_by_std > 0 ? " without a standard deviation" : "",
+        percent < 1000.0 ? fmt::format("{:.3g}", percent) : fmt::format("{:.0f}", percent),
+        verdict.in_percent.of, verdict.tolerance_percent);
+  }
+  return line;
 }
 
 Table measured_response_table(const std::vector<compare::MeasuredResponse>& responses) {

@@ -28,7 +28,8 @@ Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs);
 /// Measured and simulated signals of one run over time, for CSV.
 Table measured_run_listing(const compare::MeasuredTimeRun& run);
 
-/// The verdict on the measurement in one line: in standard deviations and in per cent.
+/// The verdict on a measurement of which something was compared, in one line: "Measurement: agrees
+/// with exact_tf." or "Measurement: DIFFERS from the model.", and the largest differences.
 std::string measured_verdict_line(const compare::MeasuredVerdict& verdict);
 
 /// Measured frequency responses against each model's, one row each.

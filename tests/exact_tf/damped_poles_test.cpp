@@ -160,28 +160,5 @@ TEST(ExactArm, HonoursTheEffectsThatChangeNumbersOnly) {
   }
 }
 
-TEST(DampedZeros, HubZerosUnderKelvinVoigtDampingDoNotDependOnTheHub) {
-  const arm::Sensor hub{arm::SensorKind::hub_angle};
-  for (const double inertia : {1e-3, 0.1, 10.0}) {
-    for (const double kelvin_voigt_s : {1e-4, 1e-3, 1e-2}) {
-      // A hub radius takes the arm from the closed form to the transfer matrices.
-      for (const bool has_radius : {false, true}) {
-        arm::Arm arm = unit_arm(inertia, 0.5, 0.02, kelvin_voigt_s);
-        if (has_radius) effects::put(arm, "hub_radius", {{"radius", 0.2}});
-        const ExactArm exact(arm);
-        const auto undamped = exact.zeros(hub, 4).s_rad_per_s;
-        const auto damped = exact.damped_zeros(hub, undamped);
-        ASSERT_TRUE(damped.summary.converged);
-        for (std::size_t i = 0; i < undamped.size(); ++i) {
-          const double omega = undamped[i].imag();
-          const auto& pair = damped.pairs[i].value();
-          const double sum = (pair.first_rad_per_s + pair.second_rad_per_s).real();
-          EXPECT_NEAR(-sum / (kelvin_voigt_s * omega * omega), 1.0, 1e-9);
-        }
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace flexarm::exact_tf

@@ -124,7 +124,8 @@ std::string details_text(const measured::Identification& identification,
   return text;
 }
 
-/// What is doubtful, then the roots, each by its best method, and what the data or the estimates fall short of.
+/// What is doubtful, then the roots, each by its best method, and what the data or the estimates
+/// fall short of.
 std::string results_text(const measured::Identification& identification,
                          const std::vector<compare::IdentifiedCondition>& conditions) {
   std::string text;
@@ -166,8 +167,7 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
 }
 
 void write_files(const IdentifyArguments& arguments, const std::string& measurement,
-                 const std::optional<arm::Arm>& arm,
-                 const measured::Identification& identification,
+                 const std::optional<arm::Arm>& arm, const measured::Identification& identification,
                  const std::vector<compare::IdentifiedCondition>& conditions) {
   if (arguments.output.folder.empty() && arguments.output.json_file.empty()) return;
   const std::string json =
@@ -193,8 +193,9 @@ int run_identify(const IdentifyArguments& arguments) {
   const auto conditions = compare::conditions_of(identification, task.arm);
   std::string text = results_text(identification, conditions);
   text += task.arm ? describe(*task.arm) + left_out_of_roots(*task.arm)
-                   : screen_note("the measurement states no arm: poles and zeros are counted from "
-                                 "1 up, and nothing is compared with a prediction");
+                   : screen_note(
+                         "the measurement states no arm: poles and zeros are counted from "
+                         "1 up, and nothing is compared with a prediction");
   text += "\n";
   if (arguments.verbose) text += details_text(identification, conditions);
   try {

@@ -183,8 +183,8 @@ IdentifiedRoot beside(const measured::ModalEntry& entry, int order, const ModelR
 
 /// The roots of one reading at their places.
 std::vector<IdentifiedRoot> at_places(const measured::ModalTable& table,
-                                      const std::vector<RootPlace>& places,
-                                      const ModelRoots& model, const AnalyticalModes& analytical) {
+                                      const std::vector<RootPlace>& places, const ModelRoots& model,
+                                      const AnalyticalModes& analytical) {
   std::vector<IdentifiedRoot> roots;
   for (std::size_t i = 0; i < table.size(); ++i) {
     IdentifiedRoot& root =

@@ -38,8 +38,8 @@ struct IdentificationRequest {
 
 /// All that measured::identify and `conditions_of` are given.
 struct IdentificationTask {
-  measured::Measurement measurement;  ///< with all of its runs
-  std::optional<arm::Arm> arm;          ///< empty where the measurement states none
+  measured::Measurement measurement;        ///< with all of its runs
+  std::optional<arm::Arm> arm;              ///< empty where the measurement states none
   std::vector<measured::MeasuredRun> runs;  ///< those asked for, with the sensors asked for
   measured::IdentificationOptions options;
 };

@@ -1,6 +1,7 @@
 #include "compare/measured_verdict.hpp"
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include "measured/spectra/tail_probability.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -54,10 +55,8 @@ MeasuredVerdict judge(const MeasuredComparison& measured) {
     }
   }
   if (verdict.judged > 0) {
-    const boost::math::chi_squared law(static_cast<double>(verdict.judged));
-    verdict.p_value = std::isfinite(verdict.chi_square)
-                          ? boost::math::cdf(boost::math::complement(law, verdict.chi_square))
-                          : 0.0;
+    verdict.p_value =
+        measured::chi_squared_tail(verdict.chi_square, static_cast<double>(verdict.judged));
     verdict.agreement = verdict.p_value >= kLeastProbability ? MeasuredAgreement::agrees
                                                              : MeasuredAgreement::differs;
   } else if (!verdict.worst_percent_of.empty()) {

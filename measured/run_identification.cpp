@@ -78,8 +78,8 @@ std::ptrdiff_t begin_of_decay(const TimeRecord& record) {
     std::vector<double> sizes;
     for (const double value : channel.values) sizes.push_back(std::abs(value - middle));
     const double largest = *std::ranges::max_element(sizes);
-    const auto released = std::ranges::find_if(
-        sizes, [&](double size) { return size >= kReleased * largest; });
+    const auto released =
+        std::ranges::find_if(sizes, [&](double size) { return size >= kReleased * largest; });
     if (released - sizes.begin() < kLeastBefore) continue;
     if (median({sizes.begin(), released}) > kQuiet * largest) continue;
     begin = std::max(begin, released - sizes.begin());
@@ -280,9 +280,8 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
 /// A hub at rest has been left out as a dead channel.
 bool has_hub_sensor(const std::vector<TimeRecord>& records) {
   return std::ranges::any_of(records, [](const TimeRecord& record) {
-    return std::ranges::any_of(record.channels, [](const Channel& channel) {
-      return arm::is_collocated(channel.sensor);
-    });
+    return std::ranges::any_of(
+        record.channels, [](const Channel& channel) { return arm::is_collocated(channel.sensor); });
   });
 }
 
@@ -290,9 +289,10 @@ bool has_hub_sensor(const std::vector<TimeRecord>& records) {
 std::string growth_of(const ModalFit& fit) {
   for (const FittedPole& pole : fit.poles) {
     if (!pole.is_mode || !(pole.damping_ratio < -kSurelyBelow * pole.damping_ratio_std)) continue;
-    return fmt::format("the damping ratio at {:.4g} Hz is {:.2g} +- {:.1g}, below 0: a motion that "
-                       "grows",
-                       pole.frequency_Hz, pole.damping_ratio, pole.damping_ratio_std);
+    return fmt::format(
+        "the damping ratio at {:.4g} Hz is {:.2g} +- {:.1g}, below 0: a motion that "
+        "grows",
+        pole.frequency_Hz, pole.damping_ratio, pole.damping_ratio_std);
   }
   return "";
 }
@@ -315,9 +315,8 @@ void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs,
       records.push_back(std::move(std::get<TimeRecord>(runs[r].data)));
       own.initial.push_back(runs[r].run.initial);
     }
-    const bool decays = std::ranges::all_of(fitted.runs, [&](std::size_t r) {
-      return studied[r].free_decay;
-    });
+    const bool decays =
+        std::ranges::all_of(fitted.runs, [&](std::size_t r) { return studied[r].free_decay; });
     own.rigid_body = own.rigid_body && (!decays || has_hub_sensor(records));
     fitted.fit = fit_modes(records, own);
     if (decays && std::ranges::none_of(fitted.fit.poles, &FittedPole::is_mode)) {
@@ -346,10 +345,10 @@ std::string_view to_string(Method method) {
 std::string doubt_of(const RunsFit& fit) {
   if (!fit.refusal.empty()) return "";
   if (!fit.fit.converged) {
-    return fmt::format("the fit did not converge in {} iterations; the model order may be too high "
-                       "for these data{}",
-                       fit.fit.iterations,
-                       fit.unphysical.empty() ? "" : ", and " + fit.unphysical);
+    return fmt::format(
+        "the fit did not converge in {} iterations; the model order may be too high "
+        "for these data{}",
+        fit.fit.iterations, fit.unphysical.empty() ? "" : ", and " + fit.unphysical);
   }
   return fit.unphysical.empty() ? "" : "the fit is unphysical: " + fit.unphysical;
 }

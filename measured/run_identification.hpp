@@ -79,8 +79,8 @@ struct RunsFit {
   std::string refusal = {};  ///< why there is no fit; empty where there is
   ModalFit fit = {};
   std::string unphysical = {};  ///< what of the fit no arm can be; empty where nothing is
-  bool of_responses = false;  ///< measured/modal/response_fit.hpp; else sample by sample
-  bool hub_held = false;      ///< of responses to the hub's motion: no gains
+  bool of_responses = false;    ///< measured/modal/response_fit.hpp; else sample by sample
+  bool hub_held = false;        ///< of responses to the hub's motion: no gains
   std::optional<ModalGains> gains = {};
   std::string gains_refusal = {};
 };

@@ -46,7 +46,8 @@ SensorModel sensor_model(const arm::Sensor& sensor, Index index, const BlockSet&
     }
   }
   const bool in_time = std::ranges::any_of(stretches, &Stretch::in_time);
-  if (choices.forced && choices.static_remainder && (!in_time || arm::derivative_order(sensor) == 0)) {
+  if (choices.forced && choices.static_remainder &&
+      (!in_time || arm::derivative_order(sensor) == 0)) {
     model.columns.push_back({.kind = Kind::remainder});
   }
   model.shared = static_cast<Index>(model.columns.size());

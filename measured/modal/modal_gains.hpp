@@ -50,7 +50,8 @@ struct ModalGains {
 /// calibrated in N m.
 ///
 /// Throws InputError when neither hub angle nor hub velocity was measured, when the inertia has to
-/// be found and the fit has no rigid-body block; UnphysicalInertia where it comes out at 0 or below.
+/// be found and the fit has no rigid-body block; UnphysicalInertia where it comes out at 0 or
+/// below.
 ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_kg_m2 = {});
 
 }  // namespace flexarm::measured

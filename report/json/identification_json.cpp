@@ -167,18 +167,18 @@ Json reading_json(const measured::ModalReading& reading,
                   const std::vector<compare::IdentifiedRoot>& identified, std::size_t condition) {
   Json roots = Json::array();
   for (const auto& root : identified) {
-    roots.push_back({{"feature", to_string(root.measured.feature)},
-                     {"order", root.order ? Json(*root.order) : Json(nullptr)},
-                     {"frequency_Hz", number_json(root.measured.frequency_Hz)},
-                     {"frequency_std_Hz", number_json(root.measured.frequency_std_Hz)},
-                     {"damping_ratio", number_json(root.measured.damping_ratio)},
-                     {"damping_ratio_std", number_json(root.measured.damping_ratio_std)},
-                     {"alias_of_Hz", number_json(root.alias_of_Hz)},
-                     {"alias_of_order",
-                      root.alias_of_order ? Json(*root.alias_of_order) : Json(nullptr)},
-                     {"analytical_Hz", number_json(root.analytical_Hz)},
-                     {"analytical_damping_ratio", number_json(root.analytical_damping_ratio)},
-                     {"error_percent", root.error_percent()}});
+    roots.push_back(
+        {{"feature", to_string(root.measured.feature)},
+         {"order", root.order ? Json(*root.order) : Json(nullptr)},
+         {"frequency_Hz", number_json(root.measured.frequency_Hz)},
+         {"frequency_std_Hz", number_json(root.measured.frequency_std_Hz)},
+         {"damping_ratio", number_json(root.measured.damping_ratio)},
+         {"damping_ratio_std", number_json(root.measured.damping_ratio_std)},
+         {"alias_of_Hz", number_json(root.alias_of_Hz)},
+         {"alias_of_order", root.alias_of_order ? Json(*root.alias_of_order) : Json(nullptr)},
+         {"analytical_Hz", number_json(root.analytical_Hz)},
+         {"analytical_damping_ratio", number_json(root.analytical_damping_ratio)},
+         {"error_percent", root.error_percent()}});
   }
   return {{"method", to_string(reading.method)},
           {"runs", reading.runs},

@@ -78,8 +78,7 @@ Verdict identification_verdict(const Identification& identification,
                                               [](const auto& run) { return !run.refusal.empty(); });
   Verdict verdict;
   if (summary.poles + summary.zeros == 0) {
-    verdict = {Status::bad, "nothing identified",
-               "No pole or zero was identified in these data."};
+    verdict = {Status::bad, "nothing identified", "No pole or zero was identified in these data."};
   } else {
     const bool is_good = faults == 0 && !is_refused && doubtful.empty();
     verdict = {is_good ? Status::good : Status::partial,
@@ -99,6 +98,17 @@ Verdict identification_verdict(const Identification& identification,
         fmt::format(" The recordings have {} fault{}.", faults, faults == 1 ? "" : "s");
   }
   return verdict;
+}
+
+/// What the methods do not agree on.
+void add_differences(const IdentifiedRuns& runs, Section& section) {
+  for (const auto& condition : runs.conditions) {
+    for (const auto& name : sources(runs.identification, condition)) {
+      for (const auto& text : method_differences({runs.identification, condition, name})) {
+        section.text.push_back(text_in_words(text) + ".");
+      }
+    }
+  }
 }
 
 Section roots_of_runs(const IdentifiedRuns& runs) {
@@ -163,17 +173,6 @@ Section circles_section(const IdentifiedRuns& runs) {
   Section section{"circles", "Nyquist circles"};
   section.add(nyquist_circles_block(runs));
   return section;
-}
-
-/// What the methods do not agree on.
-void add_differences(const IdentifiedRuns& runs, Section& section) {
-  for (const auto& condition : runs.conditions) {
-    for (const auto& name : sources(runs.identification, condition)) {
-      for (const auto& text : method_differences({runs.identification, condition, name})) {
-        section.text.push_back(text_in_words(text) + ".");
-      }
-    }
-  }
 }
 
 Section recordings_section(const IdentifiedRuns& runs) {

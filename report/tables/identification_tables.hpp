@@ -9,7 +9,8 @@
 
 namespace flexarm::report {
 
-/// A line a fit whose poles and zeros are not to be relied on: it did not converge, or is unphysical.
+/// A line a fit whose poles and zeros are not to be relied on: it did not converge, or is
+/// unphysical.
 std::vector<std::string> doubts(const measured::Identification& identification);
 
 /// A line a fault found in a run, and why runs or fits were refused.

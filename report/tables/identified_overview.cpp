@@ -80,11 +80,11 @@ std::vector<ReadRoot> roots_of(const IdentifiedData& data) {
   return roots;
 }
 
-/// Of each numbered root and each alias its best reading; poles first, then the zeros sensor by sensor.
+/// Of each numbered root and each alias its best reading; poles first, then the zeros sensor by
+/// sensor.
 std::vector<ReadRoot> best_of(std::vector<ReadRoot> roots) {
-  std::erase_if(roots, [](const ReadRoot& one) {
-    return !one.root->order && !one.root->alias_of_Hz;
-  });
+  std::erase_if(roots,
+                [](const ReadRoot& one) { return !one.root->order && !one.root->alias_of_Hz; });
   std::ranges::stable_sort(roots, {},
                            [](const ReadRoot& one) { return std::tuple(one.key(), one.rank()); });
   const auto repeated = std::ranges::unique(roots, {}, &ReadRoot::key);

@@ -82,8 +82,8 @@ std::string others_of(const Roots& roots, Feature feature) {
   std::vector<std::string> frequencies;
   for (const auto& root : roots) {
     if (root.measured.feature == feature && !root.order && root.measured.frequency_Hz) {
-      frequencies.push_back(fmt::format("{:.4g}{}", *root.measured.frequency_Hz,
-                                        root.alias_of_Hz ? " (alias)" : ""));
+      frequencies.push_back(
+          fmt::format("{:.4g}{}", *root.measured.frequency_Hz, root.alias_of_Hz ? " (alias)" : ""));
     }
   }
   const std::size_t left_out =

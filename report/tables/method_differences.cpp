@@ -42,17 +42,17 @@ bool differ(const std::optional<NumberWithError>& a, const std::optional<NumberW
 /// What the spectra of the reading's run do to the damping of a pole; empty where nothing.
 std::string reason_in_spectra(const IdentifiedData& data, const ModalReading& reading,
                               const IdentifiedRoot& fitted) {
-  const double bandwidth_Hz =
-      2.0 * *fitted.measured.damping_ratio * *fitted.measured.frequency_Hz;
+  const double bandwidth_Hz = 2.0 * *fitted.measured.damping_ratio * *fitted.measured.frequency_Hz;
   for (const auto& run : data.identification.runs) {
     if (std::ranges::find(reading.runs, run.run.id) == reading.runs.end() || !run.estimate) {
       continue;
     }
     const double spacing_Hz = run.estimate->spacing_Hz;
     if (!run.estimate->periodic && bandwidth_Hz < kLinesInBandwidth * spacing_Hz) {
-      return fmt::format("the window widens peaks: lines {:.2g} Hz apart, half-power bandwidth "
-                         "{:.2g} Hz; the fit has no window",
-                         spacing_Hz, bandwidth_Hz);
+      return fmt::format(
+          "the window widens peaks: lines {:.2g} Hz apart, half-power bandwidth "
+          "{:.2g} Hz; the fit has no window",
+          spacing_Hz, bandwidth_Hz);
     }
   }
   return "";
@@ -72,14 +72,15 @@ std::string reason_in_fit(const IdentifiedData& data, const ModalReading& fitted
   for (const auto& fit : data.identification.fits) {
     if (!fit.refusal.empty() || ids_of(fit, data.identification) != fitted.runs) continue;
     if (has_distortion(data, fit)) {
-      return "the spectra show nonlinear distortion: damping that depends on the amplitude, such as "
+      return "the spectra show nonlinear distortion: damping that depends on the amplitude, such "
+             "as "
              "friction, is likely";
     }
-    const bool is_noise = std::ranges::all_of(fit.fit.sensors, [](const auto& sensor) {
-      return sensor.residual.is_noise();
-    });
+    const bool is_noise = std::ranges::all_of(
+        fit.fit.sensors, [](const auto& sensor) { return sensor.residual.is_noise(); });
     if (!is_noise) {
-      return "residuals of the fit are not noise: damping that depends on the amplitude (friction), "
+      return "residuals of the fit are not noise: damping that depends on the amplitude "
+             "(friction), "
              "a change over time or an unknown force is possible; runs of other amplitudes tell";
     }
   }
@@ -94,9 +95,8 @@ struct FittedRoot {
 
 /// Runs of `part` are all among those of `whole`.
 bool is_part(const std::vector<std::string>& part, const std::vector<std::string>& whole) {
-  return std::ranges::all_of(part, [&](const std::string& id) {
-    return std::ranges::find(whole, id) != whole.end();
-  });
+  return std::ranges::all_of(
+      part, [&](const std::string& id) { return std::ranges::find(whole, id) != whole.end(); });
 }
 
 FittedRoot fitted_root(const IdentifiedData& data, const ModalReading& reading, int order) {

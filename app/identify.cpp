@@ -124,8 +124,7 @@ std::string details_text(const measured::Identification& identification,
   return text;
 }
 
-/// What is doubtful, then the roots, each by its best method, and what the data or the estimates
-/// fall short of.
+/// The doubts about the fits, the roots, each by its best method, and notes on data and estimates.
 std::string results_text(const measured::Identification& identification,
                          const std::vector<compare::IdentifiedCondition>& conditions) {
   std::string text;
@@ -193,9 +192,12 @@ int run_identify(const IdentifyArguments& arguments) {
   const auto conditions = compare::conditions_of(identification, task.arm);
   std::string text = results_text(identification, conditions);
   text += task.arm ? describe(*task.arm) + left_out_of_roots(*task.arm)
-                   : screen_note(
-                         "the measurement states no arm: poles and zeros are counted from "
-                         "1 up, and nothing is compared with a prediction");
+                   : screen_note(fmt::format(
+                         "{}: poles and zeros are counted from 1 up, and nothing "
+                         "is compared with a prediction",
+                         task.measurement.arm.empty()
+                             ? "the measurement states no arm"
+                             : "no number is filled in in " + arm::shown(task.measurement.arm)));
   text += "\n";
   if (arguments.verbose) text += details_text(identification, conditions);
   try {

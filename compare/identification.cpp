@@ -189,7 +189,7 @@ std::vector<IdentifiedRoot> at_places(const measured::ModalTable& table,
   for (std::size_t i = 0; i < table.size(); ++i) {
     IdentifiedRoot& root =
         roots.emplace_back(beside(table[i], places[i].order.value_or(0), model, analytical));
-    if (model.poles.empty()) root.order = places[i].order;
+    if (analytical.is_empty()) root.order = places[i].order;
     root.alias_of_Hz = places[i].alias_of_Hz;
     root.alias_of_order = places[i].alias_of_order;
   }
@@ -263,7 +263,7 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
       readings.push_back({&reading, sampling_period_s(identification, reading)});
     }
     const ModelRoots model = model_roots(condition.analytical);
-    const auto places = place_readings(readings, model);
+    const auto places = place_readings(readings, arm ? std::optional(model) : std::nullopt);
     for (std::size_t k = 0; k < readings.size(); ++k) {
       condition.roots.push_back(
           at_places(readings[k].reading->table, places[k], model, condition.analytical));

@@ -42,6 +42,9 @@ struct AnalyticalModes {
   std::vector<AnalyticalGains> gains;  ///< exact_tf, fem, assumed_modes
   response::FrequencyResponse
       response;  ///< through actuator and sensors; empty where not asked for
+
+  /// Of no arm.
+  bool is_empty() const { return gains.empty(); }
 };
 
 /// What measured roots are numbered by: poles, and antiresonances counted from 1.

@@ -155,17 +155,23 @@ measured::IdentificationOptions options_of(const IdentificationRequest& request,
   return options;
 }
 
+std::optional<arm::Arm> arm_of(const std::filesystem::path& measurement_file,
+                               const measured::Measurement& measurement) {
+  if (measurement.arm.empty()) return std::nullopt;
+  const auto arm_file = measured::arm_file_of(measurement_file, measurement);
+  if (measured::is_unfilled_arm_file(arm_file)) return std::nullopt;
+  arm::Arm arm = measured::read_arm_file(arm_file, effects::vocabulary());
+  arm::require_valid(arm);
+  return arm;
+}
+
 }  // namespace
 
 IdentificationTask read_identification_task(const std::filesystem::path& measurement_file,
                                             const IdentificationRequest& request) {
   IdentificationTask task;
   task.measurement = measured::read_measurement(measurement_file);
-  if (!task.measurement.arm.empty()) {
-    const auto arm_file = measured::arm_file_of(measurement_file, task.measurement);
-    task.arm = measured::read_arm_file(arm_file, effects::vocabulary());
-    arm::require_valid(*task.arm);
-  }
+  task.arm = arm_of(measurement_file, task.measurement);
   task.options = options_of(request, task.arm);
   for (const auto& run : chosen_runs(request, task.measurement, measurement_file.string())) {
     task.runs.push_back({run, measured::read_run(measurement_file, run)});

@@ -38,8 +38,9 @@ struct IdentificationRequest {
 
 /// All that measured::identify and `conditions_of` are given.
 struct IdentificationTask {
-  measured::Measurement measurement;        ///< with all of its runs
-  std::optional<arm::Arm> arm;              ///< empty where the measurement states none
+  measured::Measurement measurement;  ///< with all of its runs
+  /// Empty where the measurement states none, or a file in which no number is filled in.
+  std::optional<arm::Arm> arm;
   std::vector<measured::MeasuredRun> runs;  ///< those asked for, with the sensors asked for
   measured::IdentificationOptions options;
 };

@@ -264,21 +264,21 @@ void count_up(RootClusters& clusters) {
   }
 }
 
-void give_orders(RootClusters& clusters, const ModelRoots& model) {
-  if (model.poles.empty()) {
+void give_orders(RootClusters& clusters, const std::optional<ModelRoots>& model) {
+  if (!model) {
     mark_aliases_by_spacing(clusters);
     count_up(clusters);
     return;
   }
-  while (mark_alias(clusters, model)) {
+  while (mark_alias(clusters, *model)) {
   }
-  const ClusterNumbering numbered = number(clusters, model);
+  const ClusterNumbering numbered = number(clusters, *model);
   for (std::size_t c = 0; c < clusters.size(); ++c) clusters[c].place.order = numbered.orders[c];
 }
 
 /// A given table: the zeros of one sensor number the poles of all.
 std::vector<RootPlace> places_in_table(std::span<const SampledReading> readings, std::size_t r,
-                                       const ModelRoots& model) {
+                                       const std::optional<ModelRoots>& model) {
   const measured::ModalReading& own = *readings[r].reading;
   measured::ModalTable all = own.table;
   for (std::size_t k = 0; k < readings.size(); ++k) {
@@ -286,7 +286,7 @@ std::vector<RootPlace> places_in_table(std::span<const SampledReading> readings,
     if (k == r || other.method != own.method || other.runs != own.runs) continue;
     all.insert(all.end(), other.table.begin(), other.table.end());
   }
-  const auto orders = number_roots(all, model);
+  const auto orders = number_roots(all, model.value_or(ModelRoots{}));
   std::vector<RootPlace> places(own.table.size());
   for (std::size_t i = 0; i < places.size(); ++i) places[i].order = orders[i].order;
   return places;
@@ -295,7 +295,7 @@ std::vector<RootPlace> places_in_table(std::span<const SampledReading> readings,
 }  // namespace
 
 std::vector<std::vector<RootPlace>> place_readings(std::span<const SampledReading> readings,
-                                                   const ModelRoots& model) {
+                                                   const std::optional<ModelRoots>& model) {
   std::vector<std::vector<RootPlace>> places;
   for (std::size_t r = 0; r < readings.size(); ++r) {
     const measured::ModalReading& reading = *readings[r].reading;

@@ -27,7 +27,7 @@ struct SampledReading {
 ///
 /// Estimates of one pole by all methods and sensors make one cluster, as do those of one zero of a
 /// sensor; each has one order. Clusters are numbered by their most accurate estimate
-/// (`number_roots`), or, where the model is empty, counted from 1 up. Given tables are numbered by
+/// (`number_roots`), or, without a model, counted from 1 up. Given tables are numbered by
 /// themselves, each with the zeros of its own runs, and keep the orders that they state.
 ///
 /// A pole is taken for the alias of a mode m above the Nyquist frequency if the sum over the poles
@@ -41,7 +41,7 @@ struct SampledReading {
 /// alias of continues their distances to within kContinued: those of a beam grow evenly with the
 /// order.
 std::vector<std::vector<RootPlace>> place_readings(std::span<const SampledReading> readings,
-                                                   const ModelRoots& model);
+                                                   const std::optional<ModelRoots>& model);
 
 /// Estimates of one pole differ by less, in part of their frequency: peaks shift by coupling and
 /// by the window. Those of a zero, whose valley noise and leakage fill, by more. Poles and zeros of

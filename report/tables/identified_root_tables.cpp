@@ -220,7 +220,7 @@ std::vector<std::string> sources(const measured::Identification& identification,
 }
 
 Table without_predictions(Table table, const compare::IdentifiedCondition& condition) {
-  if (!condition.analytical.poles.empty()) return table;
+  if (!condition.analytical.is_empty()) return table;
   for (std::size_t c = table.columns.size(); c-- > 0;) {
     const std::string& name = table.columns[c].name;
     if (name != "exact_tf" && name != "analytical" && name != "error") continue;
@@ -245,7 +245,7 @@ Table pole_table(const IdentifiedData& data) {
     analytical.resize(analytical.size() + 2);
   }
   if (readings.empty()) return table;
-  if (!data.condition.analytical.poles.empty()) table.add_row(std::move(analytical));
+  if (!data.condition.analytical.is_empty()) table.add_row(std::move(analytical));
   const auto rows = add_pole_rows(
       data, readings, orders, true,
       [](const IdentifiedRoot& root) {
@@ -322,7 +322,7 @@ Table damping_table(const IdentifiedData& data) {
     analytical.emplace_back();
   }
   if (orders.empty()) return table;
-  if (!data.condition.analytical.poles.empty()) table.add_row(std::move(analytical));
+  if (!data.condition.analytical.is_empty()) table.add_row(std::move(analytical));
   add_pole_rows(
       data, readings, orders, false,
       [](const IdentifiedRoot& root) {

@@ -147,12 +147,8 @@ std::string results_text(const measured::Identification& identification,
     text += screen_table(report::distortion_table(run));
   }
   auto notes = report::data_notes(identification);
-  for (const auto& condition : conditions) {
-    for (const auto& runs : report::sources(identification, condition)) {
-      std::ranges::move(report::method_differences({identification, condition, runs}),
-                        std::back_inserter(notes));
-    }
-  }
+  std::ranges::move(report::all_method_differences(identification, conditions),
+                    std::back_inserter(notes));
   for (const auto& note : notes) text += screen_note(note);
   return notes.empty() ? text : text + "\n";
 }

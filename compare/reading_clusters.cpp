@@ -57,29 +57,40 @@ struct RootCluster {
 
 using RootClusters = std::vector<RootCluster>;
 
-/// Whether one reading tells two poles apart that lie this near.
-bool has_own(const RootCluster& cluster, const PlacedEstimate& estimate) {
-  return estimate.method == Method::rational_fit &&
-         std::ranges::count(cluster.estimates, estimate.reading, &PlacedEstimate::reading) > 0;
+double distance(const RootCluster& cluster, const PlacedEstimate& estimate) {
+  return std::abs(std::log(estimate.frequency_Hz / cluster.frequency_Hz()));
 }
 
+/// The estimate of the same reading; the end where there is none. A reading has each root once.
+auto own_of(RootCluster& cluster, const PlacedEstimate& estimate) {
+  return std::ranges::find(cluster.estimates, estimate.reading, &PlacedEstimate::reading);
+}
+
+/// Puts the estimate into the nearest cluster that has none of its reading or one farther off,
+/// which has to look for another place then; into one of its own where there is none.
 void add_to(RootClusters& clusters, Feature feature, const std::optional<arm::Sensor>& sensor,
             const PlacedEstimate& estimate) {
   RootCluster* nearest = nullptr;
   double least = feature == Feature::pole ? kSamePole : kSameZero;
   for (RootCluster& cluster : clusters) {
     if (cluster.feature != feature || cluster.sensor != sensor) continue;
-    if (has_own(cluster, estimate)) continue;
-    const double off = std::abs(std::log(estimate.frequency_Hz / cluster.frequency_Hz()));
-    if (off > least) continue;
+    const double off = distance(cluster, estimate);
+    const auto own = own_of(cluster, estimate);
+    if (off > least || (own != cluster.estimates.end() && distance(cluster, *own) <= off)) continue;
     least = off;
     nearest = &cluster;
   }
   if (nearest == nullptr) {
-    clusters.push_back({feature, sensor, {}, {}});
-    nearest = &clusters.back();
+    clusters.push_back({feature, sensor, {estimate}, {}});
+    return;
   }
-  nearest->estimates.push_back(estimate);
+  const auto own = own_of(*nearest, estimate);
+  if (own == nearest->estimates.end()) {
+    nearest->estimates.push_back(estimate);
+    return;
+  }
+  const PlacedEstimate farther = std::exchange(*own, estimate);
+  add_to(clusters, feature, sensor, farther);
 }
 
 /// Ascending in frequency.
@@ -249,16 +260,21 @@ void mark_aliases_by_spacing(RootClusters& clusters) {
   }
 }
 
-/// Poles, and zeros sensor by sensor, counted from 1 up.
+/// Poles, and zeros sensor by sensor, counted from 1 up. Where there is a fit, what it lacks is not
+/// counted: a peak by chance would move all orders above it.
 void count_up(RootClusters& clusters) {
+  const auto is_fitted = [](const RootCluster& cluster) {
+    return cluster.estimates.front().method == Method::rational_fit;
+  };
+  const bool has_fit = std::ranges::any_of(clusters, is_fitted);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     RootCluster& cluster = clusters[c];
-    if (cluster.place.alias_of_Hz) continue;
+    if (cluster.place.alias_of_Hz || (has_fit && !is_fitted(cluster))) continue;
     int order = 1;
     for (std::size_t k = 0; k < c; ++k) {
       const RootCluster& below = clusters[k];
       order += below.feature == cluster.feature && below.sensor == cluster.sensor &&
-               !below.place.alias_of_Hz;
+               below.place.order.has_value();
     }
     cluster.place.order = order;
   }

@@ -3,6 +3,7 @@
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/method_differences.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -323,6 +324,7 @@ Json identification_json(const measured::Identification& identification,
   }
   return {{"state", state_of(identification)},
           {"doubts", doubts(identification)},
+          {"differences", all_method_differences(identification, conditions)},
           {"runs", runs},
           {"conditions", expected},
           {"readings", readings},

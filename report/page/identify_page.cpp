@@ -100,17 +100,6 @@ Verdict identification_verdict(const Identification& identification,
   return verdict;
 }
 
-/// What the methods do not agree on.
-void add_differences(const IdentifiedRuns& runs, Section& section) {
-  for (const auto& condition : runs.conditions) {
-    for (const auto& name : sources(runs.identification, condition)) {
-      for (const auto& text : method_differences({runs.identification, condition, name})) {
-        section.text.push_back(text_in_words(text) + ".");
-      }
-    }
-  }
-}
-
 Section roots_of_runs(const IdentifiedRuns& runs) {
   Section section{"roots", "Poles and zeros"};
   for (MapBlock& map : identified_maps(runs)) section.blocks.emplace_back(std::move(map));
@@ -124,7 +113,9 @@ Section roots_of_runs(const IdentifiedRuns& runs) {
       for (const auto& [table, id] : tables) add_table(section, table, id);
     }
   }
-  add_differences(runs, section);
+  for (const auto& text : all_method_differences(runs.identification, runs.conditions)) {
+    section.text.push_back(text_in_words(text) + ".");
+  }
   return section;
 }
 

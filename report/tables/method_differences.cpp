@@ -5,8 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace flexarm::report {
@@ -16,82 +20,76 @@ namespace {
 using compare::IdentifiedRoot;
 using measured::Feature;
 using measured::Method;
+using measured::ModalEntry;
 using measured::ModalReading;
 
 /// Lines in the half-power bandwidth below which a window widens a peak by more than its errors.
 constexpr double kLinesInBandwidth = 6.0;
+/// Methods that are compared, most accurate first.
+constexpr std::array kCompared = {Method::rational_fit, Method::nyquist_circle, Method::response};
 
-struct NumberWithError {
+/// A pole by one method.
+struct PoleEstimate {
+  const ModalReading* reading = nullptr;
+  const ModalEntry* entry = nullptr;
+
+  auto rank() const { return std::ranges::find(kCompared, reading->method) - kCompared.begin(); }
+  std::string name() const {
+    return std::string(to_string(reading->method)) +
+           (reading->sensor ? " of " + arm::to_string(*reading->sensor) : "");
+  }
+};
+
+/// A number of an estimate, with its standard error; 0 where none is stated.
+struct PoleNumber {
   double value = 0.0;
   double std = 0.0;
 };
+using NumberOf = std::optional<PoleNumber> (*)(const ModalEntry&);
 
-std::optional<NumberWithError> number_of(const std::optional<double>& value,
-                                         const std::optional<double>& std) {
-  if (!value || !std) return std::nullopt;
-  return NumberWithError{*value, *std};
+std::optional<PoleNumber> frequency_of(const ModalEntry& entry) {
+  if (!entry.frequency_Hz) return std::nullopt;
+  return PoleNumber{*entry.frequency_Hz, entry.frequency_std_Hz.value_or(0.0)};
 }
 
-bool differ(const std::optional<NumberWithError>& a, const std::optional<NumberWithError>& b,
-            double least) {
-  if (!a || !b) return false;
-  const double off = std::abs(a->value - b->value);
-  return off > kSureDifference * std::hypot(a->std, b->std) && off > least * std::abs(b->value);
+std::optional<PoleNumber> damping_of(const ModalEntry& entry) {
+  if (!entry.damping_ratio) return std::nullopt;
+  return PoleNumber{*entry.damping_ratio, entry.damping_ratio_std.value_or(0.0)};
 }
 
-/// What the spectra of the reading's run do to the damping of a pole; empty where nothing.
-std::string reason_in_spectra(const IdentifiedData& data, const ModalReading& reading,
-                              const IdentifiedRoot& fitted) {
-  const double bandwidth_Hz = 2.0 * *fitted.measured.damping_ratio * *fitted.measured.frequency_Hz;
-  for (const auto& run : data.identification.runs) {
-    if (std::ranges::find(reading.runs, run.run.id) == reading.runs.end() || !run.estimate) {
-      continue;
-    }
-    const double spacing_Hz = run.estimate->spacing_Hz;
-    if (!run.estimate->periodic && bandwidth_Hz < kLinesInBandwidth * spacing_Hz) {
-      return fmt::format(
-          "the window widens peaks: lines {:.2g} Hz apart, half-power bandwidth "
-          "{:.2g} Hz; the fit has no window",
-          spacing_Hz, bandwidth_Hz);
-    }
-  }
-  return "";
-}
-
-bool has_distortion(const IdentifiedData& data, const measured::RunsFit& fit) {
-  return std::ranges::any_of(fit.runs, [&](std::size_t r) {
-    const auto& distortion = data.identification.runs[r].distortion;
-    return distortion && std::ranges::any_of(distortion->channels, [](const auto& channel) {
-             return channel.odd.found || channel.even.found;
-           });
-  });
-}
-
-/// What the fit of the same runs speaks for.
-std::string reason_in_fit(const IdentifiedData& data, const ModalReading& fitted) {
-  for (const auto& fit : data.identification.fits) {
-    if (!fit.refusal.empty() || ids_of(fit, data.identification) != fitted.runs) continue;
-    if (has_distortion(data, fit)) {
-      return "the spectra show nonlinear distortion: damping that depends on the amplitude, such "
-             "as "
-             "friction, is likely";
-    }
-    const bool is_noise = std::ranges::all_of(
-        fit.fit.sensors, [](const auto& sensor) { return sensor.residual.is_noise(); });
-    if (!is_noise) {
-      return "residuals of the fit are not noise: damping that depends on the amplitude "
-             "(friction), "
-             "a change over time or an unknown force is possible; runs of other amplitudes tell";
-    }
-  }
-  return "no reason is evident from these data";
-}
-
-/// The reading of the fit that has the pole, with the pole.
-struct FittedRoot {
-  const ModalReading* reading = nullptr;
-  const IdentifiedRoot* root = nullptr;
+/// Of a pole, how far the estimate that is furthest off lies from the most accurate one.
+struct Difference {
+  PoleEstimate best;
+  PoleEstimate other;
+  PoleNumber number_of_best;
+  PoleNumber number_of_other;
+  double part = 0.0;  ///< of the number of the best
+  int others = 0;     ///< further estimates that differ as surely
 };
+
+/// `least` and `most` are parts of the number: less is no difference, more is one whatever the
+/// errors.
+std::optional<Difference> furthest(const std::vector<PoleEstimate>& estimates, NumberOf number_of,
+                                   double least, double most) {
+  const PoleEstimate& best = estimates.front();
+  const auto of_best = number_of(*best.entry);
+  if (!of_best || of_best->value == 0.0) return std::nullopt;
+  std::optional<Difference> found;
+  int differing = 0;
+  for (const PoleEstimate& other : estimates) {
+    const auto number = number_of(*other.entry);
+    if (other.rank() == best.rank() || !number) continue;
+    const double off = std::abs(number->value - of_best->value);
+    const double part = off / std::abs(of_best->value);
+    const bool is_sure = off > kSureDifference * std::hypot(number->std, of_best->std);
+    if (part < least || (!is_sure && part < most)) continue;
+    ++differing;
+    if (found && found->part >= part) continue;
+    found = Difference{best, other, *of_best, *number, part, 0};
+  }
+  if (found) found->others = differing - 1;
+  return found;
+}
 
 /// Runs of `part` are all among those of `whole`.
 bool is_part(const std::vector<std::string>& part, const std::vector<std::string>& whole) {
@@ -99,60 +97,129 @@ bool is_part(const std::vector<std::string>& part, const std::vector<std::string
       part, [&](const std::string& id) { return std::ranges::find(whole, id) != whole.end(); });
 }
 
-FittedRoot fitted_root(const IdentifiedData& data, const ModalReading& reading, int order) {
+/// Of the pole with this order: those of the runs, and of a fit of these among other runs; most
+/// accurate first.
+std::vector<PoleEstimate> estimates_of(const IdentifiedData& data, int order) {
+  std::vector<PoleEstimate> estimates;
+  std::vector<std::string> runs;
+  for (const std::size_t i : data.condition.readings) {
+    const auto& reading = data.identification.readings[i];
+    if (joined(reading.runs) == data.runs) runs = reading.runs;
+  }
   for (std::size_t i = 0; i < data.condition.roots.size(); ++i) {
-    const auto& other = data.identification.readings[data.condition.readings[i]];
-    if (other.method != Method::rational_fit || other.hub_held) continue;
-    if (!is_part(reading.runs, other.runs)) continue;
-    for (const auto& root : data.condition.roots[i]) {
-      if (root.measured.feature == Feature::pole && root.order == order) return {&other, &root};
+    const auto& reading = data.identification.readings[data.condition.readings[i]];
+    const bool is_fit = reading.method == Method::rational_fit;
+    const bool is_here = is_fit ? is_part(runs, reading.runs) : reading.runs == runs;
+    if (reading.hub_held || !is_here || !std::ranges::count(kCompared, reading.method)) continue;
+    for (const IdentifiedRoot& root : data.condition.roots[i]) {
+      if (root.measured.feature != Feature::pole || root.order != order) continue;
+      estimates.push_back({&reading, &root.measured});
     }
   }
-  return {};
+  std::ranges::stable_sort(estimates, {}, [](const PoleEstimate& estimate) {
+    const double unknown = std::numeric_limits<double>::infinity();
+    return std::pair(estimate.rank(), estimate.entry->frequency_std_Hz.value_or(unknown));
+  });
+  return estimates;
 }
 
-void add_differences(const IdentifiedData& data, const ModalReading& reading,
-                     const IdentifiedRoot& root, std::vector<std::string>& found) {
-  const FittedRoot fit = fitted_root(data, reading, *root.order);
-  if (fit.root == nullptr) return;
-  const auto& own = root.measured;
-  const auto& best = fit.root->measured;
-  const std::string who =
-      fmt::format("{}: pole {}: {}{}", joined(reading.runs), *root.order, to_string(reading.method),
-                  reading.sensor ? " of " + arm::to_string(*reading.sensor) : "");
-  const auto frequency = number_of(own.frequency_Hz, own.frequency_std_Hz);
-  const auto fitted_frequency = number_of(best.frequency_Hz, best.frequency_std_Hz);
-  if (differ(frequency, fitted_frequency, kLeastFrequency)) {
-    found.push_back(fmt::format(
-        "{}: {:.5g} +- {:.1g} Hz is {:.2g} % off the fit's {:.5g} +- {:.1g} Hz: more than the "
-        "errors",
-        who, frequency->value, frequency->std,
-        100.0 * std::abs(frequency->value / fitted_frequency->value - 1.0), fitted_frequency->value,
-        fitted_frequency->std));
+/// What the spectra of the runs do to the damping of a pole; empty where nothing.
+std::string reason_in_spectra(const IdentifiedData& data, const Difference& difference) {
+  const double bandwidth_Hz =
+      2.0 * difference.number_of_best.value * *difference.best.entry->frequency_Hz;
+  for (const auto& run : data.identification.runs) {
+    const auto& ids = difference.other.reading->runs;
+    if (std::ranges::find(ids, run.run.id) == ids.end() || !run.estimate) continue;
+    const double spacing_Hz = run.estimate->spacing_Hz;
+    if (run.estimate->periodic || bandwidth_Hz >= kLinesInBandwidth * spacing_Hz) continue;
+    return fmt::format(
+        "likely the window, which widens peaks: lines {:.2g} Hz apart, half-power bandwidth "
+        "{:.2g} Hz",
+        spacing_Hz, bandwidth_Hz);
   }
-  const auto damping = number_of(own.damping_ratio, own.damping_ratio_std);
-  const auto fitted_damping = number_of(best.damping_ratio, best.damping_ratio_std);
-  if (!differ(damping, fitted_damping, kLeastDamping)) return;
-  std::string reason = reason_in_spectra(data, reading, *fit.root);
-  if (reason.empty()) reason = reason_in_fit(data, *fit.reading);
-  found.push_back(fmt::format(
-      "{}: damping ratio {:.3g} +- {:.1g} differs from the fit's {:.3g} +- {:.1g} by more than the "
-      "errors; {}",
-      who, damping->value, damping->std, fitted_damping->value, fitted_damping->std, reason));
+  return "";
+}
+
+/// What the fit of the same runs speaks for; empty where it was none.
+std::string reason_in_fit(const IdentifiedData& data, const Difference& difference) {
+  for (const auto& fit : data.identification.fits) {
+    if (!fit.refusal.empty() || ids_of(fit, data.identification) != difference.best.reading->runs) {
+      continue;
+    }
+    const bool is_distorted = std::ranges::any_of(fit.runs, [&](std::size_t r) {
+      const auto& distortion = data.identification.runs[r].distortion;
+      return distortion && std::ranges::any_of(distortion->channels, [](const auto& channel) {
+               return channel.odd.found || channel.even.found;
+             });
+    });
+    if (is_distorted) {
+      return "likely friction, or other damping that depends on the amplitude: the spectra show "
+             "nonlinear distortion";
+    }
+    const bool is_noise = std::ranges::all_of(
+        fit.fit.sensors, [](const auto& sensor) { return sensor.residual.is_noise(); });
+    if (!is_noise) {
+      return "likely friction, or other damping that depends on the amplitude: the residuals of "
+             "the fit are not noise; runs of other amplitudes tell";
+    }
+  }
+  return "";
+}
+
+std::string reason_of(const IdentifiedData& data, const Difference& difference) {
+  std::string reason = reason_in_spectra(data, difference);
+  if (reason.empty()) reason = reason_in_fit(data, difference);
+  return reason.empty() ? "no reason is evident from these data" : reason;
+}
+
+std::string text_of(const IdentifiedData& data, int order, const Difference& difference,
+                    const char* quantity, const char* unit) {
+  const auto text = [unit](const PoleNumber& number) {
+    return fmt::format("{:.4g} +- {:.2g}{}", number.value, number.std, unit);
+  };
+  return fmt::format(
+      "{}: pole {}: {} by {}, {}, is {:.2g} % off that by {}, {}{}", data.runs, order, quantity,
+      difference.other.name(), text(difference.number_of_other), 100.0 * difference.part,
+      difference.best.name(), text(difference.number_of_best),
+      difference.others == 0
+          ? ""
+          : fmt::format(", as {} more estimate{} {}", difference.others,
+                        difference.others == 1 ? "" : "s", difference.others == 1 ? "is" : "are"));
 }
 
 }  // namespace
 
 std::vector<std::string> method_differences(const IdentifiedData& data) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::set<int> orders;
+  for (const auto& roots : data.condition.roots) {
+    for (const IdentifiedRoot& root : roots) {
+      if (root.measured.feature == Feature::pole && root.order) orders.insert(*root.order);
+    }
+  }
   std::vector<std::string> found;
-  for (std::size_t i = 0; i < data.condition.roots.size(); ++i) {
-    const auto& reading = data.identification.readings[data.condition.readings[i]];
-    const bool is_compared =
-        reading.method == Method::nyquist_circle || reading.method == Method::response;
-    if (!is_compared || joined(reading.runs) != data.runs || reading.hub_held) continue;
-    for (const auto& root : data.condition.roots[i]) {
-      if (root.measured.feature != Feature::pole || !root.order) continue;
-      add_differences(data, reading, root, found);
+  for (const int order : orders) {
+    const auto estimates = estimates_of(data, order);
+    if (estimates.empty()) continue;
+    if (const auto off = furthest(estimates, frequency_of, kLeastFrequency, kMostFrequency)) {
+      found.push_back(text_of(data, order, *off, "frequency", " Hz"));
+    }
+    if (const auto off = furthest(estimates, damping_of, kLeastDamping, kNone)) {
+      found.push_back(text_of(data, order, *off, "damping ratio", "") + "; " +
+                      reason_of(data, *off));
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> all_method_differences(
+    const measured::Identification& identification,
+    const std::vector<compare::IdentifiedCondition>& conditions) {
+  std::vector<std::string> found;
+  for (const auto& condition : conditions) {
+    for (const auto& runs : sources(identification, condition)) {
+      std::ranges::move(method_differences({identification, condition, runs}),
+                        std::back_inserter(found));
     }
   }
   return found;

@@ -25,12 +25,11 @@ constexpr double kGap = 8.0;
 constexpr double kWindowLines = 2.0;
 /// Damping ratio above which a fitted zero is no antiresonance.
 constexpr double kMostZeroDamping = 0.25;
-/// Shares of a channel's largest deviation: a decay has begun where it is reached, and has not
-/// before where most samples stay below it.
-constexpr double kReleased = 0.5;
-constexpr double kQuiet = 0.05;
-/// A record with fewer samples before the release begins with it.
-constexpr std::ptrdiff_t kLeastBefore = 8;
+/// Windows that a record is looked through for the release of an arm, samples in the shortest, and
+/// the part of the largest standard deviation from which one moves.
+constexpr std::size_t kWindows = 50;
+constexpr std::size_t kLeastWindow = 8;
+constexpr double kMoves = 0.5;
 /// Standard errors by which a damping ratio below 0 is no undamped mode's.
 constexpr double kSurelyBelow = 3.0;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
@@ -68,35 +67,51 @@ PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
   return peaks;
 }
 
-/// The sample at which the last channel is released, 0 where the record begins with it. A hub that
-/// turns freely may be farthest from its middle anywhere.
-std::ptrdiff_t begin_of_decay(const TimeRecord& record) {
-  std::ptrdiff_t begin = 0;
+/// Standard deviation of the values within each of the windows that follow each other.
+std::vector<double> local_deviations(std::span<const double> values, std::size_t window) {
+  std::vector<double> deviations;
+  for (std::size_t first = 0; first + window <= values.size(); first += window) {
+    deviations.push_back(standard_deviation(values.subspan(first, window)));
+  }
+  return deviations;
+}
+
+/// The end of the first window that moves at least half as much as any, 0 where that is the very
+/// first: an arm that is held, bent or not, does not move before its release.
+std::size_t begin_of_motion(std::span<const double> values) {
+  std::size_t looked_at = values.size();
+  while (true) {
+    const std::size_t window = std::max(kLeastWindow, looked_at / kWindows);
+    const auto deviations = local_deviations(values.first(looked_at), window);
+    const double largest = *std::ranges::max_element(deviations);
+    const auto moves = std::ranges::find_if(
+        deviations, [&](double deviation) { return deviation >= kMoves * largest; });
+    const auto index = static_cast<std::size_t>(moves - deviations.begin());
+    if (index > 0) return (index + 1) * window;
+    if (window == kLeastWindow) return 0;
+    looked_at = 2 * window;
+  }
+}
+
+/// The sample from which all channels are in free motion. The hub, which may turn freely, says
+/// nothing of it.
+std::size_t begin_of_decay(const TimeRecord& record) {
+  std::size_t begin = 0;
   for (const Channel& channel : record.channels) {
     if (arm::is_collocated(channel.sensor)) continue;
-    const double middle = median(channel.values);
-    std::vector<double> sizes;
-    for (const double value : channel.values) sizes.push_back(std::abs(value - middle));
-    const double largest = *std::ranges::max_element(sizes);
-    const auto released =
-        std::ranges::find_if(sizes, [&](double size) { return size >= kReleased * largest; });
-    if (released - sizes.begin() < kLeastBefore) continue;
-    if (median({sizes.begin(), released}) > kQuiet * largest) continue;
-    begin = std::max(begin, released - sizes.begin());
+    begin = std::max(begin, begin_of_motion(channel.values));
   }
-  return begin;
+  return begin + kLeastSamples <= record.time_s.size() ? begin : 0;
 }
 
 /// Keeps what follows the release: any later sample begins a free decay as well, one before the
 /// release does not.
 void keep_decay(TimeRecord& record, RunIdentification& made) {
-  made.free_decay = true;
-  const std::ptrdiff_t begin = begin_of_decay(record);
-  const std::size_t left = record.time_s.size() - static_cast<std::size_t>(begin);
-  if (begin == 0 || left < kLeastSamples) return;
-  made.decay_begins_s = record.time_s[static_cast<std::size_t>(begin)];
+  const std::size_t begin = begin_of_decay(record);
+  made.decay_begins_s = record.time_s[begin];
+  made.left_out_before_decay = begin;
   const auto cut = [begin](std::vector<double>& values) {
-    values.erase(values.begin(), values.begin() + begin);
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(begin));
   };
   cut(record.time_s);
   cut(record.torque_N_m);
@@ -315,8 +330,8 @@ void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs,
       records.push_back(std::move(std::get<TimeRecord>(runs[r].data)));
       own.initial.push_back(runs[r].run.initial);
     }
-    const bool decays =
-        std::ranges::all_of(fitted.runs, [&](std::size_t r) { return studied[r].free_decay; });
+    const bool decays = std::ranges::all_of(
+        fitted.runs, [&](std::size_t r) { return studied[r].decay_begins_s.has_value(); });
     own.rigid_body = own.rigid_body && (!decays || has_hub_sensor(records));
     fitted.fit = fit_modes(records, own);
     if (decays && std::ranges::none_of(fitted.fit.poles, &FittedPole::is_mode)) {

@@ -57,9 +57,10 @@ struct RunIdentification {
   std::vector<DataFinding> findings = {};  ///< faults of a `time` run
   std::vector<arm::Sensor> left_out = {};  ///< dead channels, which nothing is estimated from
   double sampling_period_s = 0.0;          ///< of a `time` run
-  /// A `time` run that starts free, without a torque: a fit alone says something of it.
-  bool free_decay = false;
-  double decay_begins_s = 0.0;  ///< what was recorded before the release is left out
+  /// Of a `time` run that starts free, without a torque, the time of its release; a fit alone says
+  /// something of it.
+  std::optional<double> decay_begins_s = {};
+  std::size_t left_out_before_decay = 0;  ///< samples
   /// Of a `frf` run as it is, of a `time` run as estimated, from the torque or the hub's motion.
   FrequencyRecord response = {};
   std::optional<FrequencyResponseEstimate> estimate = {};  ///< of a `time` run

@@ -135,6 +135,7 @@ Json run_json(const measured::RunIdentification& run) {
           {"refusal", text(run.refusal)},
           {"findings", findings_json(run.findings)},
           {"left_out", left_out},
+          {"decay_begins_s", number_json(run.decay_begins_s)},
           {"spectra", run.estimate ? spectra_json(*run.estimate) : Json(nullptr)},
           {"circles", circles_json(run.circles)},
           {"distortion", distortion_json(run)}};

@@ -57,9 +57,9 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
       notes.push_back(fmt::format("{}: {}: {}: {}", run.run.id, finding.channel,
                                   to_string(finding.fault), finding.text));
     }
-    if (run.decay_begins_s > 0.0) {
+    if (run.left_out_before_decay > 0) {
       notes.push_back(fmt::format("{}: free decay from {:.4g} s; the samples before are left out",
-                                  run.run.id, run.decay_begins_s));
+                                  run.run.id, *run.decay_begins_s));
     }
     for (const auto& sensor : run.left_out) {
       notes.push_back(fmt::format("{}: {} excluded", run.run.id, arm::to_string(sensor)));

@@ -1,9 +1,9 @@
 #include "measured/run_identification.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/free_decay.hpp"
 #include "measured/modal/response_fit.hpp"
 #include "measured/modal/start_spectra.hpp"
-#include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
 
@@ -25,11 +25,6 @@ constexpr double kGap = 8.0;
 constexpr double kWindowLines = 2.0;
 /// Damping ratio above which a fitted zero is no antiresonance.
 constexpr double kMostZeroDamping = 0.25;
-/// Windows that a record is looked through for the release of an arm, samples in the shortest, and
-/// the part of the largest standard deviation from which one moves.
-constexpr std::size_t kWindows = 50;
-constexpr std::size_t kLeastWindow = 8;
-constexpr double kMoves = 0.5;
 /// Standard errors by which a damping ratio below 0 is no undamped mode's.
 constexpr double kSurelyBelow = 3.0;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
@@ -65,43 +60,6 @@ PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
   peaks.from_Hz = std::max(peaks.from_Hz, band.from_Hz + width_Hz);
   peaks.to_Hz = std::min(peaks.to_Hz, band.to_Hz - width_Hz);
   return peaks;
-}
-
-/// Standard deviation of the values within each of the windows that follow each other.
-std::vector<double> local_deviations(std::span<const double> values, std::size_t window) {
-  std::vector<double> deviations;
-  for (std::size_t first = 0; first + window <= values.size(); first += window) {
-    deviations.push_back(standard_deviation(values.subspan(first, window)));
-  }
-  return deviations;
-}
-
-/// The end of the first window that moves at least half as much as any, 0 where that is the very
-/// first: an arm that is held, bent or not, does not move before its release.
-std::size_t begin_of_motion(std::span<const double> values) {
-  std::size_t looked_at = values.size();
-  while (true) {
-    const std::size_t window = std::max(kLeastWindow, looked_at / kWindows);
-    const auto deviations = local_deviations(values.first(looked_at), window);
-    const double largest = *std::ranges::max_element(deviations);
-    const auto moves = std::ranges::find_if(
-        deviations, [&](double deviation) { return deviation >= kMoves * largest; });
-    const auto index = static_cast<std::size_t>(moves - deviations.begin());
-    if (index > 0) return (index + 1) * window;
-    if (window == kLeastWindow) return 0;
-    looked_at = 2 * window;
-  }
-}
-
-/// The sample from which all channels are in free motion. The hub, which may turn freely, says
-/// nothing of it.
-std::size_t begin_of_decay(const TimeRecord& record) {
-  std::size_t begin = 0;
-  for (const Channel& channel : record.channels) {
-    if (arm::is_collocated(channel.sensor)) continue;
-    begin = std::max(begin, begin_of_motion(channel.values));
-  }
-  return begin + kLeastSamples <= record.time_s.size() ? begin : 0;
 }
 
 /// Keeps what follows the release: any later sample begins a free decay as well, one before the

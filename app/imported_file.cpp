@@ -326,8 +326,9 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
 
 ReadFile read_file(const std::string& path, const FileChoice& choice) {
   if (choice.raw_columns) {
-    return {
-        path, "raw doubles", {{}, measured::read_raw_doubles(path, *choice.raw_columns), {}, {}}};
+    ForeignFile contents;
+    contents.table = measured::read_raw_doubles(path, *choice.raw_columns);
+    return {path, "raw doubles", std::move(contents)};
   }
   ForeignFile contents = measured::read_foreign_file(path);
   std::string format = to_string(contents.format);

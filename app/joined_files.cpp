@@ -41,13 +41,14 @@ std::vector<ColumnLabel> labels_of(const std::vector<ForeignColumn>& columns) {
 }
 
 /// The column that holds the time of a file, and its unit.
-measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const FileChoice& choice) {
+measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const FileChoice& choice,
+                                std::vector<std::string>& notes) {
   ColumnChoice of_time;
   for (const auto& typed : choice.columns.typed) {
     if (is_of_time(typed)) of_time.typed.push_back(typed);
   }
   of_time.time_unit = choice.columns.time_unit;
-  auto guess = measured::guess_columns(labels, of_time.mappings(labels));
+  auto guess = measured::guess_columns(labels, of_time.mappings(labels, notes));
   of_time.set_time_unit(guess.mappings);
   const auto time = guess.mappings.find("time");
   if (time != guess.mappings.end()) return time->second;
@@ -82,7 +83,7 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
       throw InputError("--join needs a time and a signal or more in each file");
     }
     const auto labels = labels_of(columns);
-    const auto mapping = time_of(labels, choice);
+    const auto mapping = time_of(labels, choice, assumptions);
     std::vector<std::string> names;
     for (const auto& label : labels) names.push_back(label.name);
     const std::size_t place = measured::column_place(names, mapping.name).value();
@@ -119,7 +120,8 @@ std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
     for (const auto& column : file.columns) columns.push_back({column.name, column.unit, {}});
   }
   const auto labels = labels_of(columns);
-  const auto guess = measured::guess_columns(labels, choice.mappings(labels));
+  std::vector<std::string> notes;  // those of the joined table are the same
+  const auto guess = measured::guess_columns(labels, choice.mappings(labels, notes));
   const auto torque = guess.mappings.find("torque");
   std::set<std::string> held;
   if (torque == guess.mappings.end()) return held;

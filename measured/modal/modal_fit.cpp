@@ -22,11 +22,12 @@ using Eigen::MatrixXd;
 constexpr double kHeavy = 0.1;
 constexpr double kHeavyTurn = 0.03;
 constexpr double kNearColumn = 0.05;
+/// Standard errors above 0 of a damping ratio that a free decay shows without a column.
+constexpr double kSureDecay = 4.0;
 constexpr double kNearDamping = 0.3;
 /// Residuals below this share of the reading are rounding, whatever their colour.
 constexpr double kOnlyRounding = 1e-6;
-/// Shares of the progress.
-constexpr double kAfterChart = 0.1;
+constexpr double kAfterChart = 0.1;  // shares of the progress
 constexpr double kOfSearch = 0.55;
 constexpr double kHalfWay = 0.55;
 constexpr int kWeighings = 3;
@@ -105,12 +106,14 @@ void judge_poles(ModalFit& fit, const ModalFitOptions& options, bool unexplained
   for (std::size_t i = 0; i < fit.poles.size(); ++i) {
     FittedPole& pole = fit.poles[i];
     pole.is_mode = false;
-    // A free decay has no residues that could speak for a pole.
-    if (fit.free_decay && !charted[i]) continue;
     if (!fit.band.contains(pole.frequency_Hz) || pole.damping_ratio > options.most_damping_ratio) {
       continue;
     }
-    if (pole.damping_ratio > kHeavy) {
+    const bool is_light = pole.damping_ratio <= kHeavy;
+    if (fit.free_decay) {  // without residues
+      const bool decays = pole.damping_ratio > kSureDecay * pole.damping_ratio_std;
+      pole.is_mode = charted[i] || (decays && is_light);
+    } else if (!is_light) {
       pole.is_mode = pole.residue_turn <= kHeavyTurn ||
                      (charted[i] && pole.residue_turn <= options.most_residue_turn);
     } else {

@@ -109,14 +109,15 @@ void print_next(const ImportArguments& arguments, const std::vector<ImportedRun>
   std::vector<std::string> names;
   for (const auto& run : runs) names.push_back(run.run.file);
   const bool has_arm = !arguments.arm_file.empty();
-  print(fmt::format("wrote {0}: measurement.toml, arm.toml{1} and {2}\nnext: {3}\n",
-                    arguments.folder, has_arm ? "" : " (its numbers are to be filled in)",
-                    fmt::join(names, ", "),
-                    has_arm ? fmt::format("compare simulation and measurement with  flexarm "
-                                          "diagnose {}/measurement.toml",
-                                          arguments.folder)
-                            : fmt::format("fill in the arm file, then  flexarm modes {}/arm.toml",
-                                          arguments.folder)));
+  print(fmt::format(
+      "wrote {0}: measurement.toml, arm.toml{1} and {2}\nnext: {3}\n", arguments.folder,
+      has_arm ? "" : " (its numbers are to be filled in)", fmt::join(names, ", "),
+      has_arm ? fmt::format("compare simulation and measurement with  flexarm "
+                            "diagnose {}/measurement.toml",
+                            arguments.folder)
+              : fmt::format("poles with  flexarm identify {0}/measurement.toml ; for all "
+                            "else fill in {0}/arm.toml",
+                            arguments.folder)));
 }
 
 /// The controller that made the torque. Throws InputError for one without a reference, and the

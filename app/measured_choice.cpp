@@ -32,7 +32,7 @@ MeasuredFile runs_of_measurement(const std::string& file) {
   const auto measurement = measured::read_measurement(file);
   MeasuredFile read;
   read.files = measured::files_of(file, measurement);
-  read.arm_file = measured::beside(file, measurement.arm);
+  read.arm_file = measured::arm_file_of(file, measurement);
   for (const auto& run : measurement.runs) {
     read.runs.push_back(run);
     read.data.push_back(measured::read_run(file, run));

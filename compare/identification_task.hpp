@@ -39,7 +39,8 @@ struct IdentificationRequest {
 /// All that measured::identify and `conditions_of` are given.
 struct IdentificationTask {
   measured::Measurement measurement;  ///< with all of its runs
-  arm::Arm arm;
+  /// Empty where the measurement states none, or a file in which no number is filled in.
+  std::optional<arm::Arm> arm;
   std::vector<measured::MeasuredRun> runs;  ///< those asked for, with the sensors asked for
   measured::IdentificationOptions options;
 };

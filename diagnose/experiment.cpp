@@ -120,7 +120,7 @@ Experiment read_experiment(const fs::path& measurement_file,
   const measured::Measurement measurement = measured::read_measurement(measurement_file);
   Experiment experiment;
   experiment.files = measured::files_of(measurement_file, measurement);
-  experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm),
+  experiment.arm = measured::read_arm_file(measured::arm_file_of(measurement_file, measurement),
                                            effects::vocabulary());
   experiment.notices = arm::plausibility_notes(experiment.arm);
   for (const auto& [name, hypothesis] : experiment.arm.hypotheses) {

@@ -33,7 +33,7 @@ using Texts = std::vector<std::string>;
 /// An identification with what it is of.
 struct Identified {
   std::string name;
-  arm::Arm arm;
+  std::optional<arm::Arm> arm;
   measured::Identification identification;
   std::vector<compare::IdentifiedCondition> conditions;
 };
@@ -130,7 +130,10 @@ void add_root(py::module_& module) {
       .def_readonly("hub_held", &Root::hub_held, "From responses to the hub motion.")
       .def_property_readonly(
           "order", [](const Root& self) { return self.root.order; },
-          "From 1, of the root of the arm file.")
+          "From 1, of the root of the arm file; counted up without an arm.")
+      .def_property_readonly(
+          "alias_of_Hz", [](const Root& self) { return self.root.alias_of_Hz; },
+          "Of the alias of a mode above the Nyquist frequency: that mode's frequency [Hz].")
       .def_property_readonly("frequency_Hz", number(&ModalEntry::frequency_Hz),
                              "Undamped natural frequency [Hz].")
       .def_property_readonly("frequency_std_Hz", number(&ModalEntry::frequency_std_Hz),
@@ -166,7 +169,7 @@ void add_identification(py::module_& module) {
   py::class_<Identified>(module, "Identification",
                          "Spectra, poles, zeros, damping and gains estimated from a measurement.")
       .def_readonly("name", &Identified::name, "Name of the measurement.")
-      .def_readonly("arm", &Identified::arm, "The arm of its file.")
+      .def_readonly("arm", &Identified::arm, "The arm of its file; None without one.")
       .def("roots", &roots_of, py::kw_only(), py::arg("feature") = py::none(),
            py::arg("method") = py::none(), py::arg("sensor") = py::none(),
            "The roots of all methods, or those of a feature ('pole', 'zero'), method ('fit') or "
@@ -177,6 +180,9 @@ void add_identification(py::module_& module) {
       .def_property_readonly(
           "zeros", [](const Identified& self) { return roots_of(self, "zero", "fit", {}); },
           "Zeros of the rational fits, a list of IdentifiedRoot.")
+      .def_property_readonly(
+          "doubts", [](const Identified& self) { return report::doubts(self.identification); },
+          "Why fits are not to be relied on: not converged, or unphysical; a list of sentences.")
       .def_property_readonly(
           "notes", [](const Identified& self) { return report::data_notes(self.identification); },
           "What was found about the data, a list of sentences.")

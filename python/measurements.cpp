@@ -46,7 +46,8 @@ struct Measurement {
 
 Measurement read_measurement(const std::filesystem::path& path) {
   const auto file = measured::read_measurement(path);
-  Measurement measurement{file.name, measured::beside(path, file.arm), {}};
+  Measurement measurement{
+      file.name, file.arm.empty() ? std::filesystem::path() : measured::beside(path, file.arm), {}};
   for (const auto& run : file.runs) {
     auto data = measured::read_run(path, run);
     if (auto* record = std::get_if<measured::TimeRecord>(&data)) {

@@ -25,6 +25,10 @@ arm::Arm read_arm_file(const std::filesystem::path& path, const arm::Vocabulary&
 arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
                    const arm::Vocabulary& vocabulary);
 
+/// Whether no number of the arm is filled in, as in the template of `flexarm import`. Throws
+/// InputError for a file that cannot be read or is not TOML.
+bool is_unfilled_arm_file(const std::filesystem::path& path);
+
 /// The arm as the text of a file: what it gives, with units as comments; values equal to their
 /// default are left out. `parse_arm` reads the same arm back, every double bit for bit.
 /// Throws InputError for an arm that is not valid, or whose name is not UTF-8.

@@ -119,6 +119,30 @@ TEST(Structure, EverySourceFolderIsARoomOfTheHouse) {
   }
 }
 
+/// Boost's functions of distributions throw for NaN.
+TEST(Structure, OneFileAsksDistributionsForProbabilities) {
+  int asked = 0;
+  for (const auto& [room, targets] : allowed_arrows()) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(FLEXARM_SOURCE_DIR) / room)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      const bool may_ask = entry.path().filename() == "tail_probability.cpp";
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        for (const char* asks : {"boost::math::cdf", "boost::math::pdf", "boost::math::erfc(",
+                                 "boost::math::gamma_q(", "boost/math/statistics"}) {
+          if (line.find(asks) == std::string::npos) continue;
+          ++asked;
+          EXPECT_TRUE(may_ask) << entry.path() << ": " << line
+                               << ": use measured/spectra/tail_probability.hpp";
+        }
+      }
+    }
+  }
+  EXPECT_GT(asked, 0) << "the pattern matches nothing";
+}
+
 TEST(Structure, FilesStayReadableInOneSitting) {
   constexpr int kMostLines = 450;
   for (const auto& [room, targets] : allowed_arrows()) {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace flexarm::diagnose {
 
 namespace {
@@ -37,8 +39,7 @@ Deadline deadline_of(const DiagnosisRequest& request, Clock::time_point begun) {
   return begun + std::chrono::duration_cast<Clock::duration>(limit);
 }
 
-Experiment read_experiment(const std::filesystem::path& measurement_file,
-                           const DiagnosisRequest& request) {
+Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request) {
   std::vector<measured::Fault> faults;
   for (const auto& check : request.accepted) {
     try {
@@ -47,7 +48,7 @@ Experiment read_experiment(const std::filesystem::path& measurement_file,
       throw arm::InputError(fmt::format("{} {}", request.spelled("accept"), error.what()));
     }
   }
-  return read_experiment(measurement_file, faults);
+  return experiment_of(std::move(recording), faults);
 }
 
 void require_valid(const DiagnosisRequest& request) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "compare/recording.hpp"
 #include "diagnose/measured_motion.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/run_identification.hpp"
@@ -62,6 +63,10 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 /// with no usable channel or entry, and for runs none of which is for estimation.
 Experiment read_experiment(const std::filesystem::path& measurement_file,
                            const std::vector<measured::Fault>& accepted = {});
+
+/// The same of a recording that was read or is in memory.
+Experiment experiment_of(compare::Recording recording,
+                         const std::vector<measured::Fault>& accepted = {});
 
 /// Gives every run without a purpose one. Runs that say nothing are for estimation where another
 /// is for validation. Where none is, the last run of a payload is, of the payload with most runs;

@@ -264,10 +264,6 @@ void add_arm(py::module_& module) {
       .def(py::self == py::self)
       .def("__hash__", [](const Arm& arm) { return py::hash(py::str(measured::format_arm(arm))); })
       .def("__repr__", &arm_text)
-      .def("_repr_html_",
-           [](const py::object& self) {
-             return py::module_::import("flexarm._html").attr("arm_table")(self);
-           })
       .def(py::pickle(&measured::format_arm, [](const std::string& text) {
         return measured::parse_arm(text, "<pickle>", effects::vocabulary());
       }));

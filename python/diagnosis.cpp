@@ -250,12 +250,6 @@ void add_diagnosis(py::module_& module) {
           "The text that `flexarm diagnose --json` writes (docs/json.md), with the name of the "
           "file that holds the extended arm; '': null.")
       .def(
-          "to_dict",
-          [](const py::object& self) {
-            return py::module_::import("json").attr("loads")(self.attr("to_json")());
-          },
-          "The same as a dict.")
-      .def(
           "write_json",
           [](const Diagnosed& self, const std::filesystem::path& path) {
             report::write_diagnosis(self.diagnosis, path);
@@ -263,10 +257,6 @@ void add_diagnosis(py::module_& module) {
           py::arg("path"),
           "Writes the files of `flexarm diagnose --json PATH`: the JSON and, beside it, the "
           "extended arm. Raises InputError where they cannot be written.")
-      .def("_repr_html_",
-           [](const py::object& self) {
-             return py::module_::import("flexarm._html").attr("diagnosis_summary")(self);
-           })
       .def("__repr__", [](const Diagnosed& self) {
         Texts causes;
         for (const auto& cause : self.diagnosis.causes) causes.push_back(cause.effect);

@@ -187,16 +187,6 @@ void add_identification(py::module_& module) {
                                                    self.conditions);
           },
           "The text that `flexarm identify --json` writes (docs/json.md).")
-      .def(
-          "to_dict",
-          [](const py::object& self) {
-            return py::module_::import("json").attr("loads")(self.attr("to_json")());
-          },
-          "The same as a dict: spectra, responses, readings, fits, gains.")
-      .def("_repr_html_",
-           [](const py::object& self) {
-             return py::module_::import("flexarm._html").attr("identification_table")(self);
-           })
       .def("__repr__", [](const Identified& self) {
         return fmt::format("<flexarm.Identification of '{}': {} poles, {} zeros by fits>",
                            self.name, roots_of(self, "pole", "fit", {}).size(),

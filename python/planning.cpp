@@ -98,12 +98,6 @@ void add_planning(py::module_& module) {
           "The plan with the recommended runs, the text of a measurement-plan.toml.")
       .def("to_json", &report::plan_document,
            "The text that `flexarm plan --json` writes (docs/json.md).")
-      .def(
-          "to_dict",
-          [](const py::object& self) {
-            return py::module_::import("json").attr("loads")(self.attr("to_json")());
-          },
-          "The same as a dict.")
       .def("__repr__", [](const Plan& self) {
         return fmt::format("<flexarm.Plan: {} effects, {} indistinguishable classes>",
                            self.effects.size(), self.classes.size());

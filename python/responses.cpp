@@ -86,13 +86,6 @@ FrequencyResponse response_of(const StateSpace& system, const Numbers& frequency
   return response;
 }
 
-/// A method that a function of a Python file of the package is.
-auto python(const char* file, const char* function) {
-  return [file, function](const py::object& self) {
-    return py::module_::import(file).attr(function)(self);
-  };
-}
-
 void add_frequency_response(py::module_& module) {
   py::class_<FrequencyResponse>(
       module, "FrequencyResponse",
@@ -113,9 +106,6 @@ void add_frequency_response(py::module_& module) {
              return view<std::complex<double>>(response.values[place_of(sensor, response.sensors)],
                                                self);
            })
-      .def("to_xarray", python("flexarm._conversions", "response_to_xarray"),
-           "xarray.Dataset with a complex variable for each sensor over frequency [Hz], units as "
-           "attributes. Raises ImportError where xarray is not installed.")
       .def("__len__", [](const FrequencyResponse& self) { return self.frequency_Hz.size(); })
       .def("__repr__", [](const FrequencyResponse& self) {
         return fmt::format("<flexarm.FrequencyResponse of {}: {} frequencies, {:.6g} to {:.6g} Hz>",
@@ -162,25 +152,6 @@ void add_state_space(py::module_& module) {
       .def("frequency_response", &response_of, py::arg("frequency_Hz"),
            "Of this state space, delays included, at ascending frequencies [Hz]: "
            "FrequencyResponse.")
-      .def(
-          "to_scipy",
-          [](const py::object& self, bool ignore_delays) {
-            return py::module_::import("flexarm._conversions")
-                .attr("to_scipy")(self, ignore_delays);
-          },
-          py::kw_only(), py::arg("ignore_delays") = false,
-          "scipy.signal.StateSpace of A, B, C, D. It has no delays: raises ValueError where there "
-          "are some, unless ignore_delays=True. Raises ImportError where SciPy is not installed.")
-      .def(
-          "to_control",
-          [](const py::object& self, bool ignore_delays) {
-            return py::module_::import("flexarm._conversions")
-                .attr("to_control")(self, ignore_delays);
-          },
-          py::kw_only(), py::arg("ignore_delays") = false,
-          "control.StateSpace (python-control) of A, B, C, D, with names of input, outputs and "
-          "states. Delays as in to_scipy. Raises ImportError where python-control is not "
-          "installed.")
       .def("__repr__", [](const StateSpace& self) {
         return fmt::format("<flexarm.StateSpace: torque to {}, {} states>",
                            fmt::join(texts_of(self.sensors), ", "), self.states.size());

@@ -127,10 +127,7 @@ void add_poles(py::module_& module) {
            [](const PoleSet& poles) {
              return fmt::format("<flexarm.Poles, undamped: {} Hz>",
                                 shown_Hz(poles.omega_rad_per_s));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("poles_table")(self);
-      });
+           });
   py::class_<DampedPoleSet>(module, "DampedPoles",
                             "Poles of the damped arm, two for each mode, in the order of Poles: "
                             "conjugates, the first with Im s > 0, or two real ones, the first the "
@@ -159,10 +156,7 @@ void add_poles(py::module_& module) {
            [](const DampedPoleSet& poles) {
              return fmt::format("<flexarm.DampedPoles: {} Hz>",
                                 shown_Hz(natural_frequencies(poles)));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("damped_poles_table")(self);
-      });
+           });
 }
 
 void add_zeros(py::module_& module) {
@@ -220,10 +214,7 @@ void add_zeros(py::module_& module) {
            [](const SensorZeros& set) {
              return fmt::format("<flexarm.Zeros of {}: {} Hz>", arm::to_string(set.sensor),
                                 shown_Hz(sizes(set.zeros.s_rad_per_s)));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("zeros_table")(self);
-      });
+           });
 }
 
 /// One number of each mode, in an array.
@@ -313,10 +304,7 @@ void add_modes(py::module_& module) {
              std::vector<double> omega;
              for (const auto& mode : modes.model.modes) omega.push_back(mode.omega_rad_per_s);
              return fmt::format("<flexarm.Modes: {} Hz>", shown_Hz(omega));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("modes_table")(self);
-      });
+           });
 }
 
 }  // namespace

@@ -67,7 +67,33 @@ void require_loop_fits(const TimeRecord& record, const Run& run, const std::stri
   }
 }
 
+/// The kind of a run that has such data.
+RunKind kind_of(const RunData& data) {
+  if (std::holds_alternative<TimeRecord>(data)) return RunKind::time;
+  return std::holds_alternative<FrequencyRecord>(data) ? RunKind::frf : RunKind::modal;
+}
+
 }  // namespace
+
+void require_valid(const Run& run, const RunData& data) {
+  const std::string place = "run " + arm::shown(run.id);
+  try {
+    if (run.kind != kind_of(data)) {
+      throw InputError(fmt::format("kind = \"{}\": its data are of kind {}", to_string(run.kind),
+                                   to_string(kind_of(data))));
+    }
+    if (const auto* record = std::get_if<TimeRecord>(&data)) {
+      require_valid(*record);
+      if (run.controller) require_loop_fits(*record, run, "the run");
+    } else if (const auto* responses = std::get_if<FrequencyRecord>(&data)) {
+      require_valid(*responses);
+    } else {
+      require_valid(std::get<ModalTable>(data));
+    }
+  } catch (const InputError& error) {
+    throw arm::located(error, place, 0);
+  }
+}
 
 RunData read_run(const std::filesystem::path& measurement_file, const Run& run) {
   const std::filesystem::path file = beside(measurement_file, run.file);

@@ -1,0 +1,44 @@
+#include "compare/recording.hpp"
+
+#include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "measured/files/arm_file.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace flexarm::compare {
+
+std::string Recording::place() const {
+  return file.empty() ? "measurement" : arm::shown(file.string());
+}
+
+std::string Recording::place(const measured::Run& run) const {
+  return file.empty() ? "measurement" : arm::shown(measured::beside(file, run.file).string());
+}
+
+Recording read_recording(const std::filesystem::path& measurement_file) {
+  const auto measurement = measured::read_measurement(measurement_file);
+  Recording recording{measurement.name,
+                      measured::read_arm_file(measured::beside(measurement_file, measurement.arm),
+                                              effects::vocabulary()),
+                      {},
+                      measurement_file,
+                      measured::files_of(measurement_file, measurement)};
+  for (const auto& run : measurement.runs) {
+    recording.runs.push_back({run, measured::read_run(measurement_file, run)});
+  }
+  return recording;
+}
+
+void require_valid(const Recording& recording) {
+  measured::Measurement measurement{recording.name, "arm.toml", {}};
+  for (const auto& [run, data] : recording.runs) measurement.runs.push_back(run);
+  if (measurement.runs.empty()) throw arm::InputError("measurement: no run; needs one or more");
+  measured::parse_measurement(measured::format_measurement(measurement),
+                              "measurement (lines of its measurement.toml)");
+  for (const auto& [run, data] : recording.runs) measured::require_valid(run, data);
+}
+
+}  // namespace flexarm::compare

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <set>
 
 namespace flexarm::compare {
 
@@ -33,12 +33,14 @@ Recording read_recording(const std::filesystem::path& measurement_file) {
 }
 
 void require_valid(const Recording& recording) {
-  measured::Measurement measurement{recording.name, "arm.toml", {}};
-  for (const auto& [run, data] : recording.runs) measurement.runs.push_back(run);
-  if (measurement.runs.empty()) throw arm::InputError("measurement: no run; needs one or more");
-  measured::parse_measurement(measured::format_measurement(measurement),
-                              "measurement (lines of its measurement.toml)");
-  for (const auto& [run, data] : recording.runs) measured::require_valid(run, data);
+  if (recording.runs.empty()) throw arm::InputError("runs: none; needs one or more");
+  std::set<std::string> ids;
+  for (const auto& [run, data] : recording.runs) {
+    if (!ids.insert(run.id).second) {
+      throw arm::InputError(fmt::format("runs: two have the id {}; each needs its own", run.id));
+    }
+    measured::require_valid(run, data);
+  }
 }
 
 }  // namespace flexarm::compare

@@ -14,12 +14,12 @@ struct Recording {
   std::string name;
   arm::Arm arm;
   std::vector<measured::MeasuredRun> runs;
-  std::filesystem::path file = {};  ///< the measurement file; empty: in memory
+  std::filesystem::path file = {};                ///< the measurement file; empty: in memory
   std::vector<std::filesystem::path> files = {};  ///< all that was read
 
-  /// What stands in front of errors about it: the file, or "measurement".
+  /// Returns what stands in front of errors: the file, or "measurement".
   std::string place() const;
-  /// In front of errors about a run: its file, or "measurement".
+  /// The same of a run: its file, or "measurement".
   std::string place(const measured::Run& run) const;
 };
 
@@ -27,9 +27,8 @@ struct Recording {
 /// where a reader does; the arm is not checked.
 Recording read_recording(const std::filesystem::path& measurement_file);
 
-/// Throws InputError for a recording in memory whose files could not be read: as
-/// `measured::parse_measurement`, for no run, an id given twice or a controller that cannot be, and
-/// with "run ID: " in front as measured::require_valid for the data of a run.
+/// Throws InputError for no run, an id that two runs have, and as `measured::require_valid` for the
+/// data of a run.
 void require_valid(const Recording& recording);
 
 }  // namespace flexarm::compare

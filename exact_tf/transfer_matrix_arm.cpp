@@ -182,15 +182,15 @@ arm::ZeroSet chain_zeros(const ArmInBeamUnits<R>& units, const arm::Sensor& sens
 
 /// D of UndampedMode of the root s of F(s; 0): F depends on s^2 and s d, so that ds/dd is real.
 Real decay_of(const DampedCharacteristic& characteristic, const Complex& s, Real kelvin_voigt_s) {
-  constexpr Real kStep = 1e-5L;  // central differences: errors of 1e-10, of a path's first step
+  constexpr Real kChange = 1e-5L;  // central differences: errors of 1e-10, of a path's first step
   const auto change = [&](const Complex& s_step, const Complex& damping_step) {
     const auto after = characteristic(s + s_step, damping_step);
     const auto before = characteristic(s - s_step, -damping_step);
     return std::pair(after.value - before.value * std::exp(before.log_scale - after.log_scale),
                      after.log_scale);
   };
-  const auto [by_s, scale_by_s] = change(kStep * s, 0.0L);
-  const auto [by_damping, scale_by_damping] = change(0.0L, kStep);
+  const auto [by_s, scale_by_s] = change(kChange * s, 0.0L);
+  const auto [by_damping, scale_by_damping] = change(0.0L, kChange);
   const Complex speed = -s * by_damping / by_s * std::exp(scale_by_damping - scale_by_s);
   return -2.0L * speed.real() + kelvin_voigt_s * (s * s).real();
 }

@@ -19,9 +19,15 @@ void ByteReader::transfer(void* to, std::size_t size) {
 
 namespace archive {
 
-std::string text_of(const std::string& text) { return text; }
-std::string text_of(const std::filesystem::path& path) { return path.string(); }
-std::string text_of(const arm::Arm& arm) { return measured::format_arm(arm); }
+std::string text_of(const std::string& text) {
+  return text;
+}
+std::string text_of(const std::filesystem::path& path) {
+  return path.string();
+}
+std::string text_of(const arm::Arm& arm) {
+  return measured::format_arm(arm);
+}
 
 std::string text_of(const arm::Effect& effect) {
   if (!effect.definition) return "";
@@ -30,7 +36,6 @@ std::string text_of(const arm::Effect& effect) {
   return measured::format_arm(arm);
 }
 
-/// Its definition, which an arm file may state, with any numbers.
 std::string text_of(const std::shared_ptr<const effects::Entry>& entry) {
   if (!entry) return "";
   arm::Effect effect{.definition = entry->definition};
@@ -40,8 +45,12 @@ std::string text_of(const std::shared_ptr<const effects::Entry>& entry) {
   return text_of(effect);
 }
 
-void set_from_text(std::string& object, const std::string& text) { object = text; }
-void set_from_text(std::filesystem::path& object, const std::string& text) { object = text; }
+void set_from_text(std::string& object, const std::string& text) {
+  object = text;
+}
+void set_from_text(std::filesystem::path& object, const std::string& text) {
+  object = text;
+}
 void set_from_text(arm::Arm& object, const std::string& text) {
   object = measured::parse_arm(text, "<pickle>", effects::vocabulary());
 }
@@ -69,7 +78,7 @@ std::string head_of(const std::type_info& type) {
   return fmt::format("flexarm {} {}\n", FLEXARM_VERSION, type.name());
 }
 
-std::string_view without_head(std::string_view state, std::string_view head) {
+std::string_view without_head(std::string_view state, const std::string& head) {
   if (state.starts_with(head)) return state.substr(head.size());
   const std::string_view first_line = state.substr(0, state.find('\n'));
   throw arm::InputError(fmt::format("a pickle of {}; this is flexarm {}, which reads its own",

@@ -40,6 +40,15 @@ std::string unit_in_name(std::string_view unit) {
   return name;
 }
 
+arm::Arm arm_of(const py::object& arm) {
+  if (py::isinstance<arm::Arm>(arm)) return arm.cast<arm::Arm>();
+  if (py::isinstance<py::str>(arm) || py::hasattr(arm, "__fspath__")) {
+    return measured::read_arm_file(arm.cast<std::filesystem::path>(), effects::vocabulary());
+  }
+  throw py::type_error(fmt::format("arm: {}; must be an Arm or the path of an arm file",
+                                   std::string(py::str(py::type::handle_of(arm).attr("__name__")))));
+}
+
 std::vector<arm::Sensor> sensors_of(const py::object& names) {
   if (py::isinstance<py::str>(names)) return {arm::parse_sensor(names.cast<std::string>())};
   std::vector<arm::Sensor> sensors;

@@ -1,8 +1,7 @@
 #include "diagnose/planning/plan_task.hpp"
-#include "effects/registry/vocabulary.hpp"
-#include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "python/argument_names.hpp"
+#include "python/arm.hpp"
 #include "python/long_call.hpp"
 #include "python/module.hpp"
 #include "report/json/plan_json.hpp"
@@ -41,10 +40,7 @@ std::optional<std::map<std::string, double>> values_of(
 
 Plan plan(const py::object& arm, const std::filesystem::path& plan_file, const Texts& effects,
           const Texts& refit, const py::object& progress) {
-  const arm::Arm of =
-      py::isinstance<arm::Arm>(arm)
-          ? arm.cast<arm::Arm>()
-          : measured::read_arm_file(arm.cast<std::filesystem::path>(), effects::vocabulary());
+  const arm::Arm of = arm_of(arm);
   return long_call("plan", progress, [&](CallState& state) {
     const auto task =
         diagnose::plan_task(of, diagnose::read_measurement_plan(plan_file),

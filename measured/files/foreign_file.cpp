@@ -226,7 +226,9 @@ ForeignFile foreign_contents(const std::string& bytes, const std::string& name,
       if (known && known->kind == FileKind::result) throw InputError("a result");
     }
     JsonTable json = parse_json_table(bytes, name);
-    file = {ForeignFormat::json, std::move(json.table), {}, std::move(json.left_out)};
+    file.format = ForeignFormat::json;
+    file.table = std::move(json.table);
+    file.left_out = std::move(json.left_out);
   } else if (is_universal(bytes)) {
     file = universal_contents(bytes, name);
   } else {

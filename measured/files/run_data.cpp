@@ -95,6 +95,14 @@ void require_valid(const Run& run, const RunData& data) {
   }
 }
 
+std::string format_run_data(const RunData& data) {
+  if (const auto* time = std::get_if<TimeRecord>(&data)) return format_time_record(*time);
+  if (const auto* responses = std::get_if<FrequencyRecord>(&data)) {
+    return format_frequency_record(*responses);
+  }
+  return format_modal_table(std::get<ModalTable>(data));
+}
+
 RunData read_run(const std::filesystem::path& measurement_file, const Run& run) {
   const std::filesystem::path file = beside(measurement_file, run.file);
   switch (run.kind) {

@@ -1,11 +1,9 @@
-#include "app/joined_files.hpp"
+#include "importing/joined_files.hpp"
 
-#include "app/command.hpp"
 #include "arm/input_error.hpp"
 #include "arm/read_word.hpp"
 #include "measured/files/column_lookup.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 namespace {
 
@@ -34,20 +32,20 @@ bool is_of_time(const std::string& typed) {
 std::vector<ColumnLabel> labels_of(const std::vector<ForeignColumn>& columns) {
   std::vector<ColumnLabel> labels;
   for (const auto& column : columns) {
-    labels.push_back(
-        {column.name, column.unit, column.is_text(), column.is_stamp, column.path});
+    labels.push_back({column.name, column.unit, column.is_text(), column.is_stamp, column.path});
   }
   return labels;
 }
 
 /// The column that holds the time of a file, and its unit.
-measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const FileChoice& choice) {
+measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const FileChoice& choice,
+                                std::vector<std::string>& notes) {
   ColumnChoice of_time;
   for (const auto& typed : choice.columns.typed) {
     if (is_of_time(typed)) of_time.typed.push_back(typed);
   }
   of_time.time_unit = choice.columns.time_unit;
-  auto guess = measured::guess_columns(labels, of_time.mappings(labels));
+  auto guess = measured::guess_columns(labels, of_time.mappings(labels, notes));
   of_time.set_time_unit(guess.mappings);
   const auto time = guess.mappings.find("time");
   if (time != guess.mappings.end()) return time->second;
@@ -82,7 +80,7 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
       throw InputError("--join needs a time and a signal or more in each file");
     }
     const auto labels = labels_of(columns);
-    const auto mapping = time_of(labels, choice);
+    const auto mapping = time_of(labels, choice, assumptions);
     std::vector<std::string> names;
     for (const auto& label : labels) names.push_back(label.name);
     const std::size_t place = measured::column_place(names, mapping.name).value();
@@ -119,7 +117,8 @@ std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
     for (const auto& column : file.columns) columns.push_back({column.name, column.unit, {}});
   }
   const auto labels = labels_of(columns);
-  const auto guess = measured::guess_columns(labels, choice.mappings(labels));
+  std::vector<std::string> notes;  // they come again with the joined table
+  const auto guess = measured::guess_columns(labels, choice.mappings(labels, notes));
   const auto torque = guess.mappings.find("torque");
   std::set<std::string> held;
   if (torque == guess.mappings.end()) return held;
@@ -167,15 +166,4 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
   return import_file(std::move(joined), of_joined);
 }
 
-void add_join_choice(CLI::App& parser, JoinChoice& choice) {
-  parser.add_flag("--join", choice.is_wanted,
-                  "The files are one run, with some of its signals each; they are joined by time");
-  parser
-      .add_option("--join-grid", choice.grid,
-                  "Times of the joined run: same (those of all files, which must agree), first "
-                  "(those of the first file) or coarsest (those of the file with the longest "
-                  "period); the others are resampled")
-      ->capture_default_str();
-}
-
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

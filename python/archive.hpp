@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "effects/registry/entry.hpp"
+#include "measured/modal/fitted_transfer.hpp"
 
 #include <array>
 #include <boost/preprocessor/repetition/enum_params.hpp>
@@ -106,6 +107,9 @@ inline constexpr bool kIsFunction = false;
 template <class Signature>
 inline constexpr bool kIsFunction<std::function<Signature>> = true;
 
+/// What a fitted transfer function, which is no aggregate, is made of.
+using PartsOfTransfer = std::tuple<measured::BlockSet, measured::SensorModel, Eigen::VectorXd>;
+
 /// Writes an object, which is then const, or reads it.
 template <class Archive, class Object>
 void transfer(Archive& archive, Object& object) {
@@ -115,7 +119,7 @@ void transfer(Archive& archive, Object& object) {
   /// The number of elements, written or read.
   const auto transfer_size = [&] {
     std::size_t size = 0;
-    if constexpr (requires { object.size(); }) size = object.size();
+    if constexpr (requires { object.size(); }) size = static_cast<std::size_t>(object.size());
     archive.transfer(&size, sizeof size);
     return size;
   };
@@ -175,6 +179,15 @@ void transfer(Archive& archive, Object& object) {
         transfer(archive, value);
       }
     }
+  } else if constexpr (std::is_same_v<T, std::vector<measured::FittedTransfer>>) {
+    std::vector<PartsOfTransfer> parts;
+    if constexpr (!kReads) {
+      for (const auto& one : object) parts.emplace_back(one.blocks(), one.model(), one.beta());
+    }
+    transfer(archive, parts);
+    if constexpr (kReads) {
+      for (auto& [blocks, model, beta] : parts) object.emplace_back(blocks, model, beta);
+    }
   } else if constexpr (requires { typename T::value_type; }) {
     const std::size_t size = transfer_size();
     if constexpr (kReads) object.resize(size);
@@ -196,29 +209,35 @@ std::string_view without_head(std::string_view state, const std::string& head);
 
 }  // namespace archive
 
-/// Makes a class picklable, with `==` and a hash by what is pickled. The version that wrote a
-/// pickle reads it; any other raises InputError.
-template <class T, class... Options>
-void add_pickle(pybind11::class_<T, Options...>& type) {
+template <class T>
+void add_pickle_to(pybind11::class_<T> type) {
   namespace py = pybind11;
   const auto bytes_of = [](const T& self) {
     ByteWriter writer;
     archive::transfer(writer, self);
     return py::bytes(archive::head_of(typeid(T)) + writer.bytes());
   };
-  type.def(py::pickle(bytes_of, [](const py::bytes& state) {
-        ByteReader reader(
-            archive::without_head(std::string_view(state), archive::head_of(typeid(T))));
-        T made{};
-        archive::transfer(reader, made);
-        return made;
-      }))
+  type.def(py::pickle(bytes_of,
+                      [](const py::bytes& state) {
+                        ByteReader reader(archive::without_head(std::string_view(state),
+                                                                archive::head_of(typeid(T))));
+                        T made{};
+                        archive::transfer(reader, made);
+                        return made;
+                      }))
       .def("__eq__",
            [bytes_of](const T& self, const py::object& other) {
              return py::isinstance<T>(other) &&
                     bytes_of(self).equal(bytes_of(other.cast<const T&>()));
            })
       .def("__hash__", [bytes_of](const T& self) { return py::hash(bytes_of(self)); });
+}
+
+/// Makes bound classes picklable, with `==` and a hash by what is pickled. The version that wrote a
+/// pickle reads it; any other raises InputError.
+template <class... Ts>
+void add_pickle() {
+  (add_pickle_to(pybind11::reinterpret_borrow<pybind11::class_<Ts>>(pybind11::type::of<Ts>())), ...);
 }
 
 }  // namespace flexarm::python

@@ -88,7 +88,13 @@ void set_numbers(arm::Arm& arm, const py::kwargs& numbers) {
                                         arm::shown(name), arm::did_you_mean(name, names),
                                         fmt::join(names, ", ")));
     }
-    key->set(arm, value.cast<double>());
+    if (value.is_none()) continue;
+    try {
+      key->set(arm, value.cast<double>());
+    } catch (const py::cast_error&) {
+      throw py::type_error(fmt::format("{} = {}: must be a number [{}]", name,
+                                       std::string(py::repr(value)), key->unit));
+    }
   }
 }
 
@@ -194,6 +200,23 @@ void add_arm_numbers(py::module_& module) {
   module.def("arm_numbers", &arm_numbers, "The numbers of an arm, a list of ArmNumber.");
 }
 
+/// "beam_length_m=None, ...": the numbers as keywords of a signature.
+std::string number_keywords() {
+  std::vector<std::string> names;
+  for (const auto& key : arm::arm_keys()) names.push_back(attribute_of(key) + "=None");
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// "  beam_length_m: length [m], above 0", a line each.
+std::string number_texts() {
+  std::string text;
+  for (const auto& key : arm::arm_keys()) {
+    text += fmt::format("  {}: {} [{}], {}\n", attribute_of(key), key.meaning, key.unit,
+                        arm::to_string(key.range));
+  }
+  return text;
+}
+
 template <class Class>
 void add_numbers(Class& type) {
   for (const auto& key : arm::arm_keys()) {
@@ -209,13 +232,15 @@ void add_arm(py::module_& module) {
   using arm::Arm;
   py::class_<Arm> type(
       module, "Arm",
-      "A single-link flexible manipulator: a uniform beam turned about its root by a motor, with a "
-      "payload at its tip.\n\n"
-      "Arm(name='', **numbers): the numbers are those of an arm file with their table and unit, "
-      "beam_length_m=0.7; docs/formats.md lists them. An arm does not change: with_ and "
-      "with_effect return another. Raises InputError for a number that is missing, out of its "
-      "range or does not fit the others.");
-  type.def(py::init(&made), py::arg("name") = "")
+      ("A single-link flexible manipulator: a uniform beam turned about its root by a motor, with a "
+       "payload at its tip. An arm does not change: with_ and with_effect return another.\n\n"
+       "Arguments, the numbers of an arm file (docs/formats.md); None: not given:\n"
+       "  name: its name\n" +
+       number_texts() +
+       "\nRaises InputError for a number that is missing, out of its range or does not fit the "
+       "others.")
+          .c_str());
+  type.def(py::init(&made), py::arg("name") = "", (number_keywords() + "\n--\n\n").c_str())
       .def_static("paper", &arm::paper_arm, "The arm of the paper's Table 1: an aluminium link.")
       .def_static(
           "from_toml",
@@ -231,10 +256,13 @@ void add_arm(py::module_& module) {
       .def("write", &measured::write_arm_file, py::arg("path"),
            "Writes an arm file, whole or not at all. Raises InputError where it cannot be written.")
       .def("with_", &with_numbers, py::arg("name") = py::none(),
-           "The arm with other numbers: arm.with_(payload_mass_kg=0.05). Raises InputError as "
-           "Arm().")
+           (number_keywords() +
+            "\n--\n\nThe arm with other numbers: arm.with_(payload_mass_kg=0.05). Raises InputError "
+            "as Arm().\n\nArguments:\n  name: its name; None: as it is\n" +
+            number_texts())
+               .c_str())
       .def("with_effect", &with_effect, py::arg("effect"), py::arg("sensor") = "",
-           "The arm with an effect: arm.with_effect('root_compliance', stiffness=30.0). Parameters "
+           "**parameters\n--\n\nThe arm with an effect: arm.with_effect('root_compliance', stiffness=30.0). Parameters "
            "have the names and units of docs/effects.md; those that are not given keep the value "
            "that the arm has, or their default. `sensor` is for an effect on one sensor. Raises "
            "InputError for an unknown effect or parameter, and a value out of its range.")

@@ -1,6 +1,7 @@
 #include "arm/controller.hpp"
 #include "arm/input_error.hpp"
 #include "measured/files/controller_keys.hpp"
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/module.hpp"
 
@@ -68,6 +69,7 @@ void add_controllers(py::module_& module) {
       .def("__repr__", [](const arm::Controller& controller) {
         return fmt::format("<flexarm.Controller {}>", measured::format_controller(controller));
       });
+  add_pickle<arm::Controller>();
 }
 
 }  // namespace flexarm::python

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/diagnosis_request.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
 #include "python/arrays.hpp"
 #include "python/long_call.hpp"
@@ -285,6 +286,7 @@ void add_diagnosis(py::module_& module) {
              "notebook, False for none\n\n"
              "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an "
              "argument, which its line begins with.");
+  add_pickle<ParameterEstimate, Cause, RefittedNumber, Gain, RunOverlay, Symptom, Diagnosed>();
 }
 
 }  // namespace flexarm::python

@@ -11,7 +11,7 @@ namespace flexarm::python {
 
 /// Numbers that a user gives under a name that ends in their unit: "hub_angle_deg", or under a
 /// header of a CSV file, "hub_angle [deg]".
-struct PYBIND11_EXPORT GivenColumn {
+struct GivenColumn {
   std::string name;
   pybind11::object values;
 };

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "compare/identification_task.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
 #include "python/arrays.hpp"
 #include "python/long_call.hpp"
@@ -226,6 +227,7 @@ void add_identification(py::module_& module) {
           "  progress: as in simulate\n\n"
           "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an argument, "
           "which its line begins with.");
+  add_pickle<Root, Identified>();
 }
 
 }  // namespace flexarm::python

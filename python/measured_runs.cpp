@@ -4,6 +4,7 @@
 #include "arm/range.hpp"
 #include "arm/read_word.hpp"
 #include "experiment/run_choice.hpp"
+#include "python/archive.hpp"
 #include "python/arrays.hpp"
 #include "python/given_columns.hpp"
 #include "python/records.hpp"
@@ -228,6 +229,9 @@ void add_frequency_run(py::module_& module) {
       .def_property_readonly(
           "sensors", [](const FrequencyRun& self) { return names_of(sensors_in(self.record)); },
           "Names of the sensors.")
+      .def_property_readonly(
+          "units", [](const FrequencyRun& self) { return units_of(sensors_in(self.record)); },
+          "Their units; responses are in these per N m.")
       .def("__getitem__", of_channel(&measured::FrequencyChannel::response), py::arg("sensor"))
       .def("frequency_Hz", of_channel(&measured::FrequencyChannel::frequency_Hz), py::arg("sensor"),
            "f of a sensor's response [Hz], read-only array (frequencies,).")
@@ -312,6 +316,7 @@ void add_measured_runs(py::module_& module) {
   add_time_run(module);
   add_frequency_run(module);
   add_modal_run(module);
+  add_pickle<TimeRun, FrequencyRun, ModalEntry, ModalRun>();
 }
 
 }  // namespace flexarm::python

@@ -6,6 +6,7 @@
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/measurement.hpp"
 #include "measured/files/run_data.hpp"
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/measured_runs.hpp"
 #include "python/module.hpp"
@@ -135,6 +136,7 @@ void add_measurements(py::module_& module) {
              "Reads measurement.toml and the files of its runs, in SI units (docs/formats.md): "
              "Measurement. Raises InputError 'FILE:LINE: ...'.\n\nArguments:\n"
              "  path: that of the measurement.toml");
+  add_pickle<Measurement>();
 }
 
 }  // namespace flexarm::python

@@ -1,5 +1,6 @@
 #include "diagnose/planning/plan_task.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
 #include "python/arm.hpp"
 #include "python/long_call.hpp"
@@ -104,6 +105,7 @@ void add_planning(py::module_& module) {
       "What the runs of a measurement-plan.toml would say of the effects of an arm (an Arm or "
       "the path of its file): Plan. `effects` to look at (none named: all), `refit` those "
       "whose size is not known. progress as in simulate. Ctrl-C ends it. Raises InputError.");
+  add_pickle<Detection, Plan>();
 }
 
 }  // namespace flexarm::python

@@ -46,6 +46,10 @@ void add_record_access(Class& type, measured::TimeRecord Object::*member) {
           "Reference of a closed loop, in the unit of its sensor, read-only array (samples,); None "
           "in open loop.")
       .def_property_readonly(
+          "reference_unit",
+          [record](const py::object& self) { return record(self).reference.unit; },
+          "Unit of the reference, '' in open loop.")
+      .def_property_readonly(
           "sensors",
           [record](const py::object& self) { return names_of(sensors_of_record(record(self))); },
           "Names of the sensors.")

@@ -1,5 +1,6 @@
 #include "python/responses.hpp"
 
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/arrays.hpp"
 #include "python/module.hpp"
@@ -7,12 +8,14 @@
 #include "response/any_formulation.hpp"
 #include "response/frequency/response_study.hpp"
 #include "response/residual_mode.hpp"
+#include "response/state_space_roots.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <complex>
+#include <optional>
 #include <pybind11/stl.h>
 #include <string>
 
@@ -114,6 +117,12 @@ void add_frequency_response(py::module_& module) {
       });
 }
 
+/// What `compute` returns, computed without the interpreter's lock.
+auto without_lock(const auto& compute) {
+  const py::gil_scoped_release released;
+  return compute();
+}
+
 /// The getter of a matrix of a state space.
 auto matrix(Eigen::MatrixXd StateSpace::*member) {
   return [member](const py::object& self) {
@@ -151,7 +160,24 @@ void add_state_space(py::module_& module) {
           "units", [](const StateSpace& self) { return units_of(self.sensors); }, "Their units.")
       .def("frequency_response", &response_of, py::arg("frequency_Hz"),
            "Of this state space, delays included, at ascending frequencies [Hz]: "
-           "FrequencyResponse.")
+           "FrequencyResponse.\n\nArguments:\n  frequency_Hz: f [Hz], array (frequencies,)")
+      .def(
+          "poles",
+          [](const StateSpace& self) {
+            return owned(without_lock([&] { return response::poles(self); }));
+          },
+          "Poles s [rad/s], the eigenvalues of A, ascending in |s|: complex array (states,).")
+      .def(
+          "zeros",
+          [](const StateSpace& self, const std::optional<std::string>& name) {
+            const arm::Sensor sensor =
+                self.sensors[name ? place_of(*name, self.sensors) : std::size_t(0)];
+            return owned(without_lock([&] { return response::zeros(self, sensor); }));
+          },
+          py::arg("sensor") = py::none(),
+          "Finite zeros s [rad/s] from the torque to a sensor, ascending in |s|: complex array "
+          "(zeros,). Those of few modes are not those of the arm: Formulation.zeros has them.\n\n"
+          "Arguments:\n  sensor: its name; None: the first")
       .def("__repr__", [](const StateSpace& self) {
         return fmt::format("<flexarm.StateSpace: torque to {}, {} states>",
                            fmt::join(texts_of(self.sensors), ", "), self.states.size());
@@ -163,6 +189,7 @@ void add_state_space(py::module_& module) {
 void add_responses(py::module_& module) {
   add_frequency_response(module);
   add_state_space(module);
+  add_pickle<FrequencyResponse, StateSpace>();
 }
 
 }  // namespace flexarm::python

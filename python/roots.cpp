@@ -1,5 +1,6 @@
 #include "python/roots.hpp"
 
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/arrays.hpp"
 #include "python/module.hpp"
@@ -314,6 +315,7 @@ void add_roots(py::module_& module) {
   add_poles(module);
   add_zeros(module);
   add_modes(module);
+  add_pickle<arm::SolveSummary, arm::RootCount, arm::PoleSet, arm::DampedPoleSet, arm::RejectedZero, SensorZeros, Modes>();
 }
 
 }  // namespace flexarm::python

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace flexarm::response {
 
@@ -19,8 +20,8 @@ using Complex = std::complex<double>;
 /// ten modes of like size, those that are hold but rounding.
 constexpr double kZeroMarkov = 1e-12;
 
-/// Powers of 2 that make the off-diagonal parts of the rows and columns of A of like size
-/// [ParlettReinsch1969].
+/// Powers of 2 that make the off-diagonal parts of the rows and columns of A of like size, as
+/// LAPACK's dgebal does; displacements and velocities differ by the highest frequency.
 Eigen::VectorXd balance(Eigen::MatrixXd a) {
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(a.rows());
   constexpr int kMostSweeps = 20;
@@ -47,9 +48,8 @@ std::vector<Complex> sorted_eigenvalues(const Eigen::MatrixXd& a) {
   if (a.rows() == 0) return {};
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
   std::vector<Complex> roots(solver.eigenvalues().begin(), solver.eigenvalues().end());
-  std::ranges::sort(roots, {}, [](const Complex& s) {
-    return std::tuple(std::abs(s), -s.real(), -s.imag());
-  });
+  std::ranges::sort(
+      roots, {}, [](const Complex& s) { return std::tuple(std::abs(s), -s.real(), -s.imag()); });
   // The two of a pair may differ in |s| by rounding.
   for (std::size_t i = 0; i + 1 < roots.size(); ++i) {
     if (roots[i].imag() < 0.0 && roots[i] == std::conj(roots[i + 1])) {
@@ -70,8 +70,8 @@ std::vector<Complex> poles(const StateSpace& system) {
 std::vector<Complex> zeros(const StateSpace& system, const arm::Sensor& sensor) {
   const auto place = std::ranges::find(system.sensors, sensor);
   if (place == system.sensors.end()) {
-    throw arm::InputError(fmt::format("{}: not among the sensors of the state space",
-                                      arm::to_string(sensor)));
+    throw arm::InputError(
+        fmt::format("{}: not among the sensors of the state space", arm::to_string(sensor)));
   }
   const Eigen::Index row = place - system.sensors.begin();
   const Eigen::VectorXd scale = balance(system.a);
@@ -86,10 +86,8 @@ std::vector<Complex> zeros(const StateSpace& system, const arm::Sensor& sensor) 
   const Eigen::Index states = a.rows();
   Eigen::MatrixXd held(states, 0);  // columns C', (C A)', ..., each of length 1
   Eigen::RowVectorXd derivative = c;
-  while (held.cols() < states) {
-    const double size = derivative.norm();
-    if (size == 0.0) return {};
-    derivative /= size;
+  while (held.cols() < states && derivative.norm() > 0.0) {
+    derivative.normalize();
     held.conservativeResize(Eigen::NoChange, held.cols() + 1);
     held.rightCols(1) = derivative.transpose();
     const double markov = derivative.dot(b);
@@ -104,7 +102,7 @@ std::vector<Complex> zeros(const StateSpace& system, const arm::Sensor& sensor) 
     }
     derivative = next;
   }
-  return {};  // the torque does not reach the sensor
+  return {};
 }
 
 }  // namespace flexarm::response

@@ -2,6 +2,19 @@
 
 from html import escape
 
+from ._flexarm import (
+    Arm,
+    DampedPoles,
+    Diagnosis,
+    Identification,
+    InputError,
+    Modes,
+    Poles,
+    Zeros,
+    arm_numbers,
+)
+from ._methods import method
+
 _STYLE = "border-collapse:collapse"
 
 
@@ -30,9 +43,8 @@ def _effect_rows(name, effect):
     return rows or [(name, "", "")]
 
 
-def arm_table(arm):
-    from . import arm_numbers
-
+@method("_repr_html_", Arm)
+def arm_html(arm):
     rows = []
     for number in arm_numbers():
         value = getattr(arm, number.attribute)
@@ -44,7 +56,8 @@ def arm_table(arm):
     return _table(arm.name or "arm", ("number", "value", "unit"), rows)
 
 
-def poles_table(poles):
+@method("_repr_html_", Poles)
+def poles_html(poles):
     rows = [
         (float(i + 1), float(f), float(w))
         for i, (f, w) in enumerate(zip(poles.frequency_Hz, poles.omega_rad_per_s))
@@ -56,7 +69,8 @@ def _complex(s):
     return f"{s.real:.6g} {'-' if s.imag < 0 else '+'} {abs(s.imag):.6g}i"
 
 
-def damped_poles_table(poles):
+@method("_repr_html_", DampedPoles)
+def damped_poles_html(poles):
     rows = [
         (float(i + 1), float(f), float(zeta), _complex(pair[0]), _complex(pair[1]))
         for i, (f, zeta, pair) in enumerate(
@@ -67,7 +81,8 @@ def damped_poles_table(poles):
     return _table("Damped poles", header, rows)
 
 
-def zeros_table(zeros):
+@method("_repr_html_", Zeros)
+def zeros_html(zeros):
     rows = [
         (float(i + 1), float(f), _complex(s), "yes" if right else "no")
         for i, (f, s, right) in enumerate(
@@ -78,7 +93,8 @@ def zeros_table(zeros):
     return _table(f"Undamped zeros of torque to {zeros.sensor}", header, rows)
 
 
-def modes_table(modes):
+@method("_repr_html_", Modes)
+def modes_html(modes):
     rows = [
         (float(i), *(float(value) for value in row))
         for i, row in enumerate(zip(modes.frequency_Hz, modes.hub_slope, modes.damping_ratio))
@@ -91,7 +107,8 @@ def _with_error(value, error):
     return "" if value is None else f"{value:.6g}" + ("" if error is None else f" ± {error:.2g}")
 
 
-def identification_table(identification):
+@method("_repr_html_", Identification)
+def identification_html(identification):
     rows = [
         (
             f"{root.feature} {root.order or ''} {root.sensor or ''}".strip(),
@@ -117,8 +134,6 @@ def _cause_rows(cause):
 
 def _overlay_figure(diagnosis):
     """The first overlay as SVG; where gnuplot is missing, why there is none."""
-    from . import InputError
-
     try:
         figures = diagnosis.figures()
     except InputError as error:
@@ -129,7 +144,8 @@ def _overlay_figure(diagnosis):
     return ""
 
 
-def diagnosis_summary(diagnosis):
+@method("_repr_html_", Diagnosis)
+def diagnosis_html(diagnosis):
     rows = [row for cause in diagnosis.causes for row in _cause_rows(cause)]
     text = f"<p>{escape(diagnosis.verdict_text)}</p>"
     if rows:

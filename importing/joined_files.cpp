@@ -117,7 +117,7 @@ std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
     for (const auto& column : file.columns) columns.push_back({column.name, column.unit, {}});
   }
   const auto labels = labels_of(columns);
-  std::vector<std::string> notes;  // they come again with the joined table
+  std::vector<std::string> notes;  // those of the joined table are the same
   const auto guess = measured::guess_columns(labels, choice.mappings(labels, notes));
   const auto torque = guess.mappings.find("torque");
   std::set<std::string> held;

@@ -15,7 +15,10 @@ void read_json_log(std::string_view bytes) {
     for (const auto& column : json.table.columns) {
       require(column.is_text() || !column.values.empty(), "a column holds nothing");
     }
-    import_contents({measured::ForeignFormat::json, std::move(json.table), {}, {}});
+    measured::ForeignFile contents;
+    contents.format = measured::ForeignFormat::json;
+    contents.table = std::move(json.table);
+    import_contents(std::move(contents));
   });
 }
 

@@ -4,9 +4,10 @@
 #include "effects/registry/entry.hpp"
 #include "measured/modal/fitted_transfer.hpp"
 
-#include <array>
 #include <boost/preprocessor/repetition/enum_params.hpp>
 #include <boost/preprocessor/repetition/repeat_from_to.hpp>
+
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <filesystem>
@@ -87,10 +88,10 @@ void for_each_member(T& object, const Each& each) {
   if constexpr (kCount == 0) {
     return;
   }
-#define FLEXARM_MEMBERS(z, n, unused)                       \
-  else if constexpr (kCount == (n)) {                       \
-    auto& [BOOST_PP_ENUM_PARAMS(n, member)] = object;       \
-    const auto members = std::tie(BOOST_PP_ENUM_PARAMS(n, member)); \
+#define FLEXARM_MEMBERS(z, n, unused)                                   \
+  else if constexpr (kCount == (n)) {                                   \
+    auto& [BOOST_PP_ENUM_PARAMS(n, member)] = object;                   \
+    const auto members = std::tie(BOOST_PP_ENUM_PARAMS(n, member));     \
     std::apply([&](auto&... member) { (each(member), ...); }, members); \
   }
   BOOST_PP_REPEAT_FROM_TO(1, 49, FLEXARM_MEMBERS, ~)
@@ -152,7 +153,8 @@ void transfer(Archive& archive, Object& object) {
     if constexpr (kReads) {
       [&]<std::size_t... kPlaces>(std::index_sequence<kPlaces...>) {
         ((kPlaces == index ? void(object.template emplace<kPlaces>()) : void()), ...);
-      }(std::make_index_sequence<std::variant_size_v<T>>());
+      }
+      (std::make_index_sequence<std::variant_size_v<T>>());
     }
     std::visit(each, object);
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
@@ -237,7 +239,8 @@ void add_pickle_to(pybind11::class_<T> type) {
 /// pickle reads it; any other raises InputError.
 template <class... Ts>
 void add_pickle() {
-  (add_pickle_to(pybind11::reinterpret_borrow<pybind11::class_<Ts>>(pybind11::type::of<Ts>())), ...);
+  (add_pickle_to(pybind11::reinterpret_borrow<pybind11::class_<Ts>>(pybind11::type::of<Ts>())),
+   ...);
 }
 
 }  // namespace flexarm::python

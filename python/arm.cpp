@@ -45,8 +45,9 @@ arm::Arm arm_of(const py::object& arm) {
   if (py::isinstance<py::str>(arm) || py::hasattr(arm, "__fspath__")) {
     return measured::read_arm_file(arm.cast<std::filesystem::path>(), effects::vocabulary());
   }
-  throw py::type_error(fmt::format("arm: {}; must be an Arm or the path of an arm file",
-                                   std::string(py::str(py::type::handle_of(arm).attr("__name__")))));
+  throw py::type_error(
+      fmt::format("arm: {}; must be an Arm or the path of an arm file",
+                  std::string(py::str(py::type::handle_of(arm).attr("__name__")))));
 }
 
 std::vector<arm::Sensor> sensors_of(const py::object& names) {
@@ -232,7 +233,8 @@ void add_arm(py::module_& module) {
   using arm::Arm;
   py::class_<Arm> type(
       module, "Arm",
-      ("A single-link flexible manipulator: a uniform beam turned about its root by a motor, with a "
+      ("A single-link flexible manipulator: a uniform beam turned about its root by a motor, with "
+       "a "
        "payload at its tip. An arm does not change: with_ and with_effect return another.\n\n"
        "Arguments, the numbers of an arm file (docs/formats.md); None: not given:\n"
        "  name: its name\n" +
@@ -248,30 +250,41 @@ void add_arm(py::module_& module) {
             return measured::parse_arm(text, "<string>", effects::vocabulary());
           },
           py::arg("text"),
-          "The arm of the text of an arm file. Raises InputError with '<string>:LINE: ' in front.")
+          "The arm of the text of an arm file. Raises InputError with '<string>:LINE: ' in "
+          "front.\n\n"
+          "Arguments:\n  text: that of an arm file")
       .def(
           "to_toml", &measured::format_arm,
           "The arm as the text of an arm file; from_toml reads the same arm back, every number bit "
           "for bit.")
       .def("write", &measured::write_arm_file, py::arg("path"),
-           "Writes an arm file, whole or not at all. Raises InputError where it cannot be written.")
-      .def("with_", &with_numbers, py::arg("name") = py::none(),
-           (number_keywords() +
-            "\n--\n\nThe arm with other numbers: arm.with_(payload_mass_kg=0.05). Raises InputError "
-            "as Arm().\n\nArguments:\n  name: its name; None: as it is\n" +
-            number_texts())
-               .c_str())
-      .def("with_effect", &with_effect, py::arg("effect"), py::arg("sensor") = "",
-           "**parameters\n--\n\nThe arm with an effect: arm.with_effect('root_compliance', stiffness=30.0). Parameters "
-           "have the names and units of docs/effects.md; those that are not given keep the value "
-           "that the arm has, or their default. `sensor` is for an effect on one sensor. Raises "
-           "InputError for an unknown effect or parameter, and a value out of its range.")
+           "Writes an arm file, whole or not at all. Raises InputError where it cannot be "
+           "written.\n\n"
+           "Arguments:\n  path: that of the file")
+      .def(
+          "with_", &with_numbers, py::arg("name") = py::none(),
+          (number_keywords() +
+           "\n--\n\nThe arm with other numbers: arm.with_(payload_mass_kg=0.05). Raises InputError "
+           "as Arm().\n\nArguments:\n  name: its name; None: as it is\n" +
+           number_texts())
+              .c_str())
+      .def(
+          "with_effect", &with_effect, py::arg("effect"), py::arg("sensor") = "",
+          "**parameters\n--\n\nThe arm with an effect: "
+          "arm.with_effect('root_compliance', stiffness=30.0). Raises InputError for an unknown "
+          "effect or parameter, and a value out of its range.\n\n"
+          "Arguments:\n  effect: its name\n"
+          "  sensor: name of the sensor that it acts on, where it acts on one\n"
+          "  **parameters: numbers with the names and units of docs/effects.md; those that are not "
+          "given keep the value that the arm has, or their default")
       .def("without_effect", &without_effect, py::arg("effect"),
-           "The arm without an effect that it has. Raises InputError where it has not.")
+           "The arm without an effect that it has. Raises InputError where it has not.\n\n"
+           "Arguments:\n  effect: its name")
       .def("with_uncertainties", &with_uncertainties, py::arg("relative"),
            "The arm with relative standard deviations of numbers, by their key in an arm file: "
            "{'hub.inertia': 0.05}. A diagnosis refits such numbers. Raises InputError for "
-           "an unknown key and a value that is not above 0.")
+           "an unknown key and a value that is not above 0.\n\nArguments:\n"
+           "  relative: a dict of standard deviations relative to the numbers [1]")
       .def_property_readonly(
           "name", [](const Arm& arm) { return arm.name; }, "Its name.")
       .def_property_readonly(
@@ -313,7 +326,8 @@ void add_arm(py::module_& module) {
       },
       py::arg("path"),
       "Reads an arm file (TOML, docs/formats.md). Raises InputError 'FILE:LINE: ...' for a file "
-      "that cannot be read, and for an arm that no formulation takes.");
+      "that cannot be read, and for an arm that no formulation takes.\n\nArguments:\n"
+      "  path: that of the file");
 }
 
 }  // namespace flexarm::python

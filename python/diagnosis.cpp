@@ -51,9 +51,9 @@ struct RunOverlay {
 };
 
 Diagnosed diagnose_measurement(const py::object& measurement, const Texts& effects,
-                        const Texts& exclude, const Texts& accept,
-                        std::optional<double> time_limit_s, int max_causes,
-                        const std::string& predictor, const py::object& progress) {
+                               const Texts& exclude, const Texts& accept,
+                               std::optional<double> time_limit_s, int max_causes,
+                               const std::string& predictor, const py::object& progress) {
   const auto begun = std::chrono::steady_clock::now();
   const diagnose::DiagnosisRequest request{.effects = effects,
                                            .excluded = exclude,
@@ -250,8 +250,8 @@ void add_diagnosis(py::module_& module) {
             return report::diagnosis_document(self.diagnosis, extended_arm);
           },
           py::arg("extended_arm") = "",
-          "The text that `flexarm diagnose --json` writes (docs/json.md), with the name of the "
-          "file that holds the extended arm; '': null.")
+          "The text that `flexarm diagnose --json` writes (docs/json.md).\n\nArguments:\n"
+          "  extended_arm: name of the file that holds the extended arm; '': null")
       .def(
           "write_json",
           [](const Diagnosed& self, const std::filesystem::path& path) {
@@ -259,7 +259,8 @@ void add_diagnosis(py::module_& module) {
           },
           py::arg("path"),
           "Writes the files of `flexarm diagnose --json PATH`: the JSON and, beside it, the "
-          "extended arm. Raises InputError where they cannot be written.")
+          "extended arm. Raises InputError where they cannot be written.\n\nArguments:\n"
+          "  path: that of the JSON file")
       .def("__repr__", [](const Diagnosed& self) {
         Texts causes;
         for (const auto& cause : self.diagnosis.causes) causes.push_back(cause.effect);

@@ -46,14 +46,15 @@ std::vector<T> values_of(const GivenColumn& column) {
   const py::array given = py::array::ensure(column.values);
   if (!given) PyErr_Clear();
   const bool has_numbers =
-      given && std::string_view(kIsReal ? "fiubO" : "fiubOc").find(given.dtype().kind()) != std::string_view::npos;
+      given && std::string_view(kIsReal ? "fiubO" : "fiubOc").find(given.dtype().kind()) !=
+                   std::string_view::npos;
   const auto array = has_numbers ? PlainArray<T>::ensure(given) : PlainArray<T>();
   if (!has_numbers || !array) {
     PyErr_Clear();
-    throw InputError(fmt::format("{}: {}; must be an array of {}", column.name,
-                                 given ? "values of type " + std::string(py::str(given.dtype()))
-                                       : type_of(column.values),
-                                 kWanted));
+    throw InputError(fmt::format(
+        "{}: {}; must be an array of {}", column.name,
+        given ? "values of type " + std::string(py::str(given.dtype())) : type_of(column.values),
+        kWanted));
   }
   if (array.ndim() != 1) {
     throw InputError(fmt::format("{}: an array of {} dimensions; must be of 1", column.name,
@@ -114,16 +115,18 @@ void convert(std::vector<double>& values, const Named& name) {
 /// The reference of a loop, in the unit of its name.
 measured::Reference reference_of(const GivenColumn& column) {
   const std::string unit = measured::split_column_name(column.name).unit;
-  for (const auto kind : {"hub_angle", "hub_velocity", "tip_acceleration", "tip_displacement",
-                          "strain@0"}) {
+  for (const auto kind :
+       {"hub_angle", "hub_velocity", "tip_acceleration", "tip_displacement", "strain@0"}) {
     if (!measured::is_unit_of(kind, unit)) continue;
-    measured::Reference reference{std::string(measured::si_unit_of(kind)), values_of<double>(column)};
+    measured::Reference reference{std::string(measured::si_unit_of(kind)),
+                                  values_of<double>(column)};
     convert(reference.values, {kind, unit});
     return reference;
   }
-  throw InputError(fmt::format("{}: {}; must be that of the controller's sensor, as in "
-                               "reference_rad or reference_deg",
-                               column.name, unit.empty() ? "no unit in the name" : "unit " + unit));
+  throw InputError(
+      fmt::format("{}: {}; must be that of the controller's sensor, as in "
+                  "reference_rad or reference_deg",
+                  column.name, unit.empty() ? "no unit in the name" : "unit " + unit));
 }
 
 bool is_reference(const std::string& name) {
@@ -131,8 +134,10 @@ bool is_reference(const std::string& name) {
 }
 
 /// The channel of a sensor's response, which may be new.
-measured::FrequencyChannel& channel_of(measured::FrequencyRecord& record, const arm::Sensor& sensor) {
-  const auto found = std::ranges::find(record.channels, sensor, &measured::FrequencyChannel::sensor);
+measured::FrequencyChannel& channel_of(measured::FrequencyRecord& record,
+                                       const arm::Sensor& sensor) {
+  const auto found =
+      std::ranges::find(record.channels, sensor, &measured::FrequencyChannel::sensor);
   if (found != record.channels.end()) return *found;
   return record.channels.emplace_back(measured::FrequencyChannel{sensor, {}, {}, {}});
 }
@@ -187,7 +192,8 @@ measured::TimeRecord time_record_of(const std::vector<GivenColumn>& columns,
       continue;
     }
     auto& of_record = name.quantity == "time" ? record.time_s : record.torque_N_m;
-    if (!of_record.empty()) throw InputError(fmt::format("{}: {} given twice", column.name, name.quantity));
+    if (!of_record.empty())
+      throw InputError(fmt::format("{}: {} given twice", column.name, name.quantity));
     of_record = std::move(values);
   }
   if (record.channels.empty()) {
@@ -217,10 +223,12 @@ measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& co
       const std::string sensor = column.name.substr(0, column.name.size() - kCoherence.size());
       channel_of(record, arm::parse_sensor(sensor)).coherence = values_of<double>(column);
     } else if (column.name.ends_with(kPerTorque)) {
-      const std::string name_of_unit = column.name.substr(0, column.name.size() - kPerTorque.size());
+      const std::string name_of_unit =
+          column.name.substr(0, column.name.size() - kPerTorque.size());
       const Named name = named(column, name_of_unit, kPerTorque);
       const auto sensor = measured::sensor_of(name.quantity);
-      if (!sensor) throw InputError(column.name + ": must be a sensor's, as in hub_angle_rad_per_N_m");
+      if (!sensor)
+        throw InputError(column.name + ": must be a sensor's, as in hub_angle_rad_per_N_m");
       auto& channel = channel_of(record, *sensor);
       channel.response = values_of<std::complex<double>>(column);
       const double scale = measured::conversion_of(name.quantity, name.unit).value_or(1.0);
@@ -243,8 +251,8 @@ measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& co
 std::string column_keywords(const std::string& per) {
   std::vector<std::string> names;
   if (per.empty()) names = {"time_s", "torque_N_m"};
-  for (const auto kind : {"hub_angle", "hub_velocity", "tip_acceleration", "tip_displacement",
-                          "tip_deflection"}) {
+  for (const auto kind :
+       {"hub_angle", "hub_velocity", "tip_acceleration", "tip_displacement", "tip_deflection"}) {
     names.push_back(fmt::format("{}_{}{}", kind, unit_in_name(measured::si_unit_of(kind)), per));
   }
   return fmt::format("{}=None, **columns", fmt::join(names, "=None, "));

@@ -33,8 +33,8 @@ measured::TimeRecord time_record_of(const std::vector<GivenColumn>& columns,
 /// hub_angle_coherence. Throws arm::InputError as `time_record_of`.
 measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& columns);
 
-/// "time_s=None, torque_N_m=None, hub_angle_rad=None, ...": the columns of a record as keywords of a
-/// signature, in SI units; `per` is "_per_N_m" for responses.
+/// "time_s=None, torque_N_m=None, hub_angle_rad=None, ...": the columns of a record as keywords of
+/// a signature, in SI units; `per` is "_per_N_m" for responses.
 std::string column_keywords(const std::string& per);
 
 }  // namespace flexarm::python

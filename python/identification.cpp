@@ -174,8 +174,10 @@ void add_identification(py::module_& module) {
       .def_readonly("arm", &Identified::arm, "The arm of its file.")
       .def("roots", &roots_of, py::kw_only(), py::arg("feature") = py::none(),
            py::arg("method") = py::none(), py::arg("sensor") = py::none(),
-           "The roots of all methods, or those of a feature ('pole', 'zero'), method ('fit') or "
-           "sensor: a list of IdentifiedRoot.")
+           "The roots of all methods, or some of them: a list of IdentifiedRoot.\n\nArguments:\n"
+           "  feature: 'pole' or 'zero'; None: both\n"
+           "  method: 'fit', 'circle', 'response', 'autopower' or 'table'; None: all\n"
+           "  sensor: its name; None: all")
       .def_property_readonly(
           "poles", [](const Identified& self) { return roots_of(self, "pole", "fit", {}); },
           "Poles of the rational fits, a list of IdentifiedRoot.")
@@ -222,11 +224,11 @@ void add_identification(py::module_& module) {
       "  to_Hz: highest frequency of the fit [Hz] (None: by the data)\n"
       "  modes: flexible modes of the fit (None: by the data)\n"
       "  highest_order: of the stabilisation diagram, 2 to 100\n"
-          "  total_inertia_kg_m2: I_T that the fit is held to [kg m^2] (None: fitted)\n"
-          "  fit: whether a rational function is fitted\n"
-          "  progress: as in simulate\n\n"
-          "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an argument, "
-          "which its line begins with.");
+      "  total_inertia_kg_m2: I_T that the fit is held to [kg m^2] (None: fitted)\n"
+      "  fit: whether a rational function is fitted\n"
+      "  progress: as in simulate\n\n"
+      "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an argument, "
+      "which its line begins with.");
   add_pickle<Root, Identified>();
 }
 

@@ -46,8 +46,8 @@ std::string with_arguments(const std::string& line) {
   static const std::regex option("--([a-z]+(-[a-z]+)*)");
   std::string text;
   auto end = line.cbegin();
-  for (std::sregex_iterator found(line.begin(), line.end(), option); found != std::sregex_iterator();
-       ++found) {
+  for (std::sregex_iterator found(line.begin(), line.end(), option);
+       found != std::sregex_iterator(); ++found) {
     text.append(end, (*found)[0].first);
     text += as_argument((*found)[1].str());
     end = (*found)[0].second;
@@ -125,9 +125,8 @@ Measurement import_log(const py::object& path, const py::object& arm, const std:
   try {
     const auto made = long_call("import", progress, [&](CallState& state) {
       double done = 0.0;
-      return importing::import_logs(request, [&] {
-        state.reach(++done / static_cast<double>(request.files.size()));
-      });
+      return importing::import_logs(
+          request, [&] { state.reach(++done / static_cast<double>(request.files.size())); });
     });
     for (const auto& run : made.runs) measurement.runs.push_back({run.run, run.data});
     if (name.empty() && made.runs.size() == 1) measurement.name = made.runs.front().run.id;

@@ -54,10 +54,10 @@ TimeRun time_run(const py::object& data, const std::string& id, const py::object
                  const py::kwargs& columns) {
   using measured::InitialState;
   using measured::TorqueHold;
-  TimeRun made{
-      run_of(id, measured::RunKind::time, purpose, payload_mass_kg, payload_inertia_kg_m2), {}};
-  made.run.torque_hold = arm::read_word("torque_hold", torque_hold,
-                                        std::array{TorqueHold::zero, TorqueHold::first});
+  TimeRun made{run_of(id, measured::RunKind::time, purpose, payload_mass_kg, payload_inertia_kg_m2),
+               {}};
+  made.run.torque_hold =
+      arm::read_word("torque_hold", torque_hold, std::array{TorqueHold::zero, TorqueHold::first});
   made.run.initial =
       arm::read_word("initial", initial, std::array{InitialState::rest, InitialState::free});
   made.record = time_record_of(columns_of(data, columns), sample_time_s);
@@ -104,7 +104,8 @@ py::dict without_nan(const py::dict& row) {
   for (const auto& [name, value] : row) {
     const bool is_nan = py::isinstance<py::float_>(value) && std::isnan(value.cast<double>());
     const bool is_order = name.equal(py::str("order"));  // a column with gaps has floats
-    if (!is_nan) known[name] = is_order ? py::int_(py::reinterpret_borrow<py::object>(value)) : value;
+    if (!is_nan)
+      known[name] = is_order ? py::int_(py::reinterpret_borrow<py::object>(value)) : value;
   }
   return known;
 }
@@ -117,9 +118,9 @@ ModalRun modal_run(const py::object& entries, const std::string& id, const std::
   const py::object rows = is_frame ? entries.attr("to_dict")("records") : entries;
   for (const auto& row : rows) {
     const bool is_entry = py::isinstance<ModalEntry>(row);
-    const py::object entry =
-        is_entry ? py::reinterpret_borrow<py::object>(row)
-                 : py::type::of<ModalEntry>()(**without_nan(row.cast<py::dict>()));
+    const py::object entry = is_entry
+                                 ? py::reinterpret_borrow<py::object>(row)
+                                 : py::type::of<ModalEntry>()(**without_nan(row.cast<py::dict>()));
     made.table.push_back(entry.cast<ModalEntry>());
   }
   measured::require_valid(made.run, made.table);
@@ -167,7 +168,8 @@ constexpr const char* kRunArguments =
     "  id: its name, which names its file\n"
     "  purpose: 'estimation' or 'validation' ('': the program chooses)\n"
     "  payload_mass_kg: mass of the payload [kg] (None: that of the arm)\n"
-    "  payload_inertia_kg_m2: its inertia about its centre of mass [kg m^2] (None: 0 with a mass)\n";
+    "  payload_inertia_kg_m2: its inertia about its centre of mass [kg m^2] (None: 0 with a "
+    "mass)\n";
 
 std::string time_run_text() {
   return "A recording in time. run['hub_angle'] is what a sensor read, read-only array (samples,) "
@@ -187,8 +189,8 @@ std::string time_run_text() {
 
 void add_time_run(py::module_& module) {
   auto time = py::class_<TimeRun>(module, "TimeRun", time_run_text().c_str());
-  time.def(py::init(&time_run), py::arg("data") = py::none(), py::kw_only(),
-           py::arg("id") = "run", py::arg("sample_time_s") = py::none(), py::arg("purpose") = "",
+  time.def(py::init(&time_run), py::arg("data") = py::none(), py::kw_only(), py::arg("id") = "run",
+           py::arg("sample_time_s") = py::none(), py::arg("purpose") = "",
            py::arg("payload_mass_kg") = py::none(), py::arg("payload_inertia_kg_m2") = py::none(),
            py::arg("torque_hold") = "zero", py::arg("initial") = "rest",
            py::arg("controller") = py::none(), (column_keywords("") + "\n--\n\n").c_str());
@@ -234,10 +236,11 @@ void add_frequency_run(py::module_& module) {
           "Their units; responses are in these per N m.")
       .def("__getitem__", of_channel(&measured::FrequencyChannel::response), py::arg("sensor"))
       .def("frequency_Hz", of_channel(&measured::FrequencyChannel::frequency_Hz), py::arg("sensor"),
-           "f of a sensor's response [Hz], read-only array (frequencies,).")
+           "f of a sensor's response [Hz], read-only array (frequencies,).\n\nArguments:\n"
+           "  sensor: its name")
       .def("coherence", of_channel(&measured::FrequencyChannel::coherence), py::arg("sensor"),
            "Coherence [1] of a sensor's response, NaN where unknown, read-only array "
-           "(frequencies,).")
+           "(frequencies,).\n\nArguments:\n  sensor: its name")
       .def("__repr__", [](const FrequencyRun& self) {
         return fmt::format("<flexarm.FrequencyRun '{}': {}>", self.run.id,
                            fmt::join(texts_of(sensors_in(self.record)), ", "));

@@ -101,7 +101,7 @@ void add_measurements(py::module_& module) {
       "  arm: an Arm, the path of an arm file, or None where it is not known\n"
       "  runs: a TimeRun, FrequencyRun or ModalRun, or a list of these, each with its own id\n"
       "  name: its name\n\n"
-      "identify, diagnose and compare take it as they take the path of a measurement.toml. Raises "
+      "identify and diagnose take it as they take the path of a measurement.toml. Raises "
       "InputError for runs that do not go together.")
       .def(py::init(&measurement_of), py::arg("arm"), py::arg("runs"), py::arg("name") = "")
       .def_readonly("name", &Measurement::name, "Its name.")

@@ -1,4 +1,5 @@
 #include "python/module.hpp"
+
 #include "python/signatures.hpp"
 
 PYBIND11_MODULE(_flexarm, module) {

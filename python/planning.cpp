@@ -102,9 +102,13 @@ void add_planning(py::module_& module) {
   module.def(
       "plan", &plan, py::arg("arm"), py::arg("plan_file"), py::kw_only(),
       py::arg("effects") = Texts{}, py::arg("refit") = Texts{}, py::arg("progress") = py::none(),
-      "What the runs of a measurement-plan.toml would say of the effects of an arm (an Arm or "
-      "the path of its file): Plan. `effects` to look at (none named: all), `refit` those "
-      "whose size is not known. progress as in simulate. Ctrl-C ends it. Raises InputError.");
+      "What the runs of a measurement-plan.toml would say of the effects of an arm: Plan. Ctrl-C "
+      "ends it. Raises InputError.\n\nArguments:\n"
+      "  arm: an Arm, or the path of an arm file\n"
+      "  plan_file: path of the measurement-plan.toml\n"
+      "  effects: names of the effects to look at, a list; []: all\n"
+      "  refit: names of those whose size is not known, a list\n"
+      "  progress: as in simulate");
   add_pickle<Detection, Plan>();
 }
 

@@ -48,8 +48,8 @@ response::StateSpace state_space_of(const Formulation& formulation,
   options.sensors = sensors;
   const auto band = response::frequency_range(formulation.formulation, options);
   const auto truncation = response::truncation_in_frequency(
-      formulation.formulation, sensors,
-      response::judged_frequencies_Hz(band.from_Hz, band.to_Hz), static_correction,
+      formulation.formulation, sensors, response::judged_frequencies_Hz(band.from_Hz, band.to_Hz),
+      static_correction,
       {modes, response::most_chosen_modes(response::name(formulation.formulation))});
   arm::ModalModel model =
       response::modal_model(formulation.formulation, truncation.modes, sensors, {});

@@ -26,7 +26,6 @@ response::FrequencyResponse frequency_response_of(const Formulation& formulation
 
 response::StateSpace state_space_of(const Formulation& formulation,
                                     const std::vector<arm::Sensor>& sensors,
-                                    std::optional<int> modes,
-                                    bool static_correction);
+                                    std::optional<int> modes, bool static_correction);
 
 }  // namespace flexarm::python

@@ -124,11 +124,9 @@ void add_poles(py::module_& module) {
       .def_readonly("count", &PoleSet::count, "RootCount.")
       .def_readonly("summary", &PoleSet::summary, "SolveSummary.")
       .def("__len__", [](const PoleSet& poles) { return poles.omega_rad_per_s.size(); })
-      .def("__repr__",
-           [](const PoleSet& poles) {
-             return fmt::format("<flexarm.Poles, undamped: {} Hz>",
-                                shown_Hz(poles.omega_rad_per_s));
-           });
+      .def("__repr__", [](const PoleSet& poles) {
+        return fmt::format("<flexarm.Poles, undamped: {} Hz>", shown_Hz(poles.omega_rad_per_s));
+      });
   py::class_<DampedPoleSet>(module, "DampedPoles",
                             "Poles of the damped arm, two for each mode, in the order of Poles: "
                             "conjugates, the first with Im s > 0, or two real ones, the first the "
@@ -153,11 +151,9 @@ void add_poles(py::module_& module) {
           "Damping ratio [1], above 1 for two real poles, array (count,).")
       .def_readonly("summary", &DampedPoleSet::summary, "SolveSummary.")
       .def("__len__", [](const DampedPoleSet& poles) { return poles.flexible.size(); })
-      .def("__repr__",
-           [](const DampedPoleSet& poles) {
-             return fmt::format("<flexarm.DampedPoles: {} Hz>",
-                                shown_Hz(natural_frequencies(poles)));
-           });
+      .def("__repr__", [](const DampedPoleSet& poles) {
+        return fmt::format("<flexarm.DampedPoles: {} Hz>", shown_Hz(natural_frequencies(poles)));
+      });
 }
 
 void add_zeros(py::module_& module) {
@@ -211,11 +207,10 @@ void add_zeros(py::module_& module) {
       .def_property_readonly(
           "summary", [](const SensorZeros& set) { return set.zeros.summary; }, "SolveSummary.")
       .def("__len__", [](const SensorZeros& set) { return set.zeros.s_rad_per_s.size(); })
-      .def("__repr__",
-           [](const SensorZeros& set) {
-             return fmt::format("<flexarm.Zeros of {}: {} Hz>", arm::to_string(set.sensor),
-                                shown_Hz(sizes(set.zeros.s_rad_per_s)));
-           });
+      .def("__repr__", [](const SensorZeros& set) {
+        return fmt::format("<flexarm.Zeros of {}: {} Hz>", arm::to_string(set.sensor),
+                           shown_Hz(sizes(set.zeros.s_rad_per_s)));
+      });
 }
 
 /// One number of each mode, in an array.
@@ -300,12 +295,11 @@ void add_modes(py::module_& module) {
           },
           "Mode shapes phi [m], array (modes, stations).")
       .def("__len__", [](const Modes& modes) { return modes.model.modes.size(); })
-      .def("__repr__",
-           [](const Modes& modes) {
-             std::vector<double> omega;
-             for (const auto& mode : modes.model.modes) omega.push_back(mode.omega_rad_per_s);
-             return fmt::format("<flexarm.Modes: {} Hz>", shown_Hz(omega));
-           });
+      .def("__repr__", [](const Modes& modes) {
+        std::vector<double> omega;
+        for (const auto& mode : modes.model.modes) omega.push_back(mode.omega_rad_per_s);
+        return fmt::format("<flexarm.Modes: {} Hz>", shown_Hz(omega));
+      });
 }
 
 }  // namespace
@@ -315,7 +309,8 @@ void add_roots(py::module_& module) {
   add_poles(module);
   add_zeros(module);
   add_modes(module);
-  add_pickle<arm::SolveSummary, arm::RootCount, arm::PoleSet, arm::DampedPoleSet, arm::RejectedZero, SensorZeros, Modes>();
+  add_pickle<arm::SolveSummary, arm::RootCount, arm::PoleSet, arm::DampedPoleSet, arm::RejectedZero,
+             SensorZeros, Modes>();
 }
 
 }  // namespace flexarm::python

@@ -40,9 +40,9 @@ std::string arguments_of(const py::detail::function_record& record, const std::s
   for (std::size_t i = 0; i < record.args.size(); ++i) {
     const auto& argument = record.args[i];
     if (i == record.nargs_pos) parts.emplace_back("*");
-    parts.push_back(argument.value ? fmt::format("{}={}", argument.name,
-                                                 std::string(py::repr(argument.value)))
-                                   : argument.name);
+    parts.push_back(argument.value
+                        ? fmt::format("{}={}", argument.name, std::string(py::repr(argument.value)))
+                        : argument.name);
   }
   if (!keywords.empty()) {
     const bool has_star = record.args.size() > record.nargs_pos || keywords.starts_with("**");

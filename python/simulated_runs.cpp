@@ -35,7 +35,9 @@ void add_run(py::module_& module) {
             return view<double>(simulated.simulation.channels[channel_of(simulated.record, sensor)],
                                 self);
           },
-          py::arg("sensor"), "What the sensor reads without noise, array (samples,).")
+          py::arg("sensor"),
+          "What the sensor reads without noise, array (samples,).\n\nArguments:\n  sensor: its "
+          "name")
       .def_property_readonly(
           "hub_torque_N_m",
           [](const py::object& self) {

@@ -84,8 +84,8 @@ Settings settings_of(const py::kwargs& keywords) {
     try {
       value = given.cast<std::remove_reference_t<decltype(value)>>();
     } catch (const py::cast_error&) {
-      throw py::type_error(fmt::format("{} = {}: must be as in {}", name,
-                                       std::string(py::repr(given)), kSettings));
+      throw py::type_error(
+          fmt::format("{} = {}: must be as in {}", name, std::string(py::repr(given)), kSettings));
     }
   };
   settings.runs.spelled = as_argument;
@@ -304,12 +304,13 @@ void add_simulation(py::module_& module) {
       "simulate", &simulate, py::arg("arm"), py::arg("excitation") = py::none(), py::kw_only(),
       py::arg("reference") = py::none(), py::arg("controller") = py::none(),
       py::arg("progress") = py::none(),
-      text("The time response of an arm at rest, all effects included: SimulatedRun.\n\nArguments:\n"
-           "  arm: the Arm\n"
-           "  excitation: a torque [N m], array (samples,), or 'KIND:KEY=VALUE,...' as for "
-           "`flexarm simulate --excitation`; None: bang-bang\n"
-           "  reference: of a closed loop in place of the excitation, an array in the unit of the "
-           "controller's sensor or such a text\n")
+      text(
+          "The time response of an arm at rest, all effects included: SimulatedRun.\n\nArguments:\n"
+          "  arm: the Arm\n"
+          "  excitation: a torque [N m], array (samples,), or 'KIND:KEY=VALUE,...' as for "
+          "`flexarm simulate --excitation`; None: bang-bang\n"
+          "  reference: of a closed loop in place of the excitation, an array in the unit of the "
+          "controller's sensor or such a text\n")
           .c_str());
   module.def(
       "simulate_experiment", &simulate_experiment, py::arg("arm"), py::arg("excitations"),

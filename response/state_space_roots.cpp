@@ -48,8 +48,8 @@ std::vector<Complex> sorted_eigenvalues(const Eigen::MatrixXd& a) {
   if (a.rows() == 0) return {};
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
   std::vector<Complex> roots(solver.eigenvalues().begin(), solver.eigenvalues().end());
-  std::ranges::sort(
-      roots, {}, [](const Complex& s) { return std::tuple(std::abs(s), -s.real(), -s.imag()); });
+  std::ranges::sort(roots, {},
+                    [](const Complex& s) { return std::tuple(std::abs(s), -s.real(), -s.imag()); });
   // The two of a pair may differ in |s| by rounding.
   for (std::size_t i = 0; i + 1 < roots.size(); ++i) {
     if (roots[i].imag() < 0.0 && roots[i] == std::conj(roots[i + 1])) {

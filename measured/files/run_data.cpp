@@ -53,11 +53,10 @@ void require_loop_fits(const TimeRecord& record, const Run& run, const std::stri
   const arm::Sensor& sensor = controller.sensors.front();
   if (std::holds_alternative<arm::PidController>(controller.law) &&
       record.reference.unit != arm::unit(sensor)) {
-    throw InputError(
-        fmt::format("reference = \"{}\": in {} in {}; must be in {}, the unit of {}",
-                    run.reference->name, record.reference.unit, file_name, arm::unit(sensor),
-                    arm::to_string(sensor)),
-        "reference");
+    throw InputError(fmt::format("reference = \"{}\": in {} in {}; must be in {}, the unit of {}",
+                                 run.reference->name, record.reference.unit, file_name,
+                                 arm::unit(sensor), arm::to_string(sensor)),
+                     "reference");
   }
   try {
     arm::samples_per_period(controller, sampling_period_s(record));
@@ -68,7 +67,7 @@ void require_loop_fits(const TimeRecord& record, const Run& run, const std::stri
 }
 
 /// The kind of a run that has such data.
-RunKind kind_of(const RunData& data) {
+RunKind run_kind_of(const RunData& data) {
   if (std::holds_alternative<TimeRecord>(data)) return RunKind::time;
   return std::holds_alternative<FrequencyRecord>(data) ? RunKind::frf : RunKind::modal;
 }
@@ -78,9 +77,9 @@ RunKind kind_of(const RunData& data) {
 void require_valid(const Run& run, const RunData& data) {
   const std::string place = "run " + arm::shown(run.id);
   try {
-    if (run.kind != kind_of(data)) {
+    if (run.kind != run_kind_of(data)) {
       throw InputError(fmt::format("kind = \"{}\": its data are of kind {}", to_string(run.kind),
-                                   to_string(kind_of(data))));
+                                   to_string(run_kind_of(data))));
     }
     if (const auto* record = std::get_if<TimeRecord>(&data)) {
       require_valid(*record);

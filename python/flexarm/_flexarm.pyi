@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, overload
+from typing import Any, Literal, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,9 @@ _Complexes = NDArray[np.complex128]
 _Path = str | PathLike[str]
 _Sensors = str | Iterable[str]
 _Progress = Callable[[float], object] | Literal[False] | None
+
+_Run = Union["TimeRun", "FrequencyRun", "ModalRun"]
+_Texts = str | Sequence[str]
 
 class InputError(ValueError): ...
 
@@ -34,14 +37,48 @@ class ArmNumber:
     def required(self) -> bool: ...
 
 class Arm:
-    def __init__(self, name: str = ..., **numbers: float) -> None: ...
+    def __init__(
+        self,
+        name: str = ...,
+        *,
+        beam_length_m: float | None = ...,
+        beam_width_m: float | None = ...,
+        beam_thickness_m: float | None = ...,
+        beam_density_kg_per_m3: float | None = ...,
+        beam_youngs_modulus_Pa: float | None = ...,
+        beam_shear_modulus_Pa: float | None = ...,
+        beam_flexural_rigidity_N_m2: float | None = ...,
+        beam_linear_density_kg_per_m: float | None = ...,
+        hub_inertia_kg_m2: float | None = ...,
+        hub_viscous_friction_N_m_s_per_rad: float | None = ...,
+        payload_mass_kg: float | None = ...,
+        payload_inertia_kg_m2: float | None = ...,
+        damping_kelvin_voigt_s: float | None = ...,
+    ) -> None: ...
     @staticmethod
     def paper() -> Arm: ...
     @staticmethod
     def from_toml(text: str) -> Arm: ...
     def to_toml(self) -> str: ...
     def write(self, path: _Path) -> None: ...
-    def with_(self, name: str | None = ..., **numbers: float) -> Arm: ...
+    def with_(
+        self,
+        name: str | None = ...,
+        *,
+        beam_length_m: float | None = ...,
+        beam_width_m: float | None = ...,
+        beam_thickness_m: float | None = ...,
+        beam_density_kg_per_m3: float | None = ...,
+        beam_youngs_modulus_Pa: float | None = ...,
+        beam_shear_modulus_Pa: float | None = ...,
+        beam_flexural_rigidity_N_m2: float | None = ...,
+        beam_linear_density_kg_per_m: float | None = ...,
+        hub_inertia_kg_m2: float | None = ...,
+        hub_viscous_friction_N_m_s_per_rad: float | None = ...,
+        payload_mass_kg: float | None = ...,
+        payload_inertia_kg_m2: float | None = ...,
+        damping_kelvin_voigt_s: float | None = ...,
+    ) -> Arm: ...
     def with_effect(self, effect: str, sensor: str = ..., **parameters: float) -> Arm: ...
     def without_effect(self, effect: str) -> Arm: ...
     def with_uncertainties(self, relative: Mapping[str, float]) -> Arm: ...
@@ -170,6 +207,7 @@ class Poles:
     def summary(self) -> SolveSummary: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class DampedPoles:
     @property
@@ -184,6 +222,7 @@ class DampedPoles:
     def summary(self) -> SolveSummary: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class RejectedZero:
     @property
@@ -212,6 +251,7 @@ class Zeros:
     def summary(self) -> SolveSummary: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class Modes:
     @property
@@ -238,6 +278,7 @@ class Modes:
     def displacement_m(self) -> _Floats: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class FrequencyResponse:
     @property
@@ -251,6 +292,7 @@ class FrequencyResponse:
     def __getitem__(self, sensor: str) -> _Complexes: ...
     def to_xarray(self) -> Any: ...
     def __len__(self) -> int: ...
+    def to_pandas(self) -> Any: ...
 
 class StateSpace:
     @property
@@ -274,6 +316,8 @@ class StateSpace:
     @property
     def units(self) -> tuple[str, ...]: ...
     def frequency_response(self, frequency_Hz: ArrayLike) -> FrequencyResponse: ...
+    def poles(self) -> _Complexes: ...
+    def zeros(self, sensor: str | None = ...) -> _Complexes: ...
     def to_scipy(self, *, ignore_delays: bool = ...) -> Any: ...
     def to_control(self, *, ignore_delays: bool = ...) -> Any: ...
 
@@ -408,6 +452,8 @@ class SimulatedRun:
     @property
     def reference(self) -> _Floats | None: ...
     @property
+    def reference_unit(self) -> str: ...
+    @property
     def sensors(self) -> tuple[str, ...]: ...
     @property
     def units(self) -> tuple[str, ...]: ...
@@ -429,6 +475,7 @@ class SimulatedRun:
     def noise_deviation(self) -> list[float]: ...
     @property
     def step_error(self) -> list[float]: ...
+    def to_pandas(self) -> Any: ...
 
 class SteppedSineRun:
     @property
@@ -437,7 +484,10 @@ class SteppedSineRun:
     def frequency_Hz(self) -> _Floats: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
+    @property
+    def units(self) -> tuple[str, ...]: ...
     def __getitem__(self, sensor: str) -> _Complexes: ...
+    def to_pandas(self) -> Any: ...
 
 class SimulatedExperiment:
     @property
@@ -456,12 +506,41 @@ class SimulatedExperiment:
     def to_json(self) -> str: ...
 
 class TimeRun:
+    def __init__(
+        self,
+        data: Any = ...,
+        *,
+        id: str = ...,
+        sample_time_s: float | None = ...,
+        purpose: str = ...,
+        payload_mass_kg: float | None = ...,
+        payload_inertia_kg_m2: float | None = ...,
+        torque_hold: str = ...,
+        initial: str = ...,
+        controller: Controller | None = ...,
+        time_s: ArrayLike | None = ...,
+        torque_N_m: ArrayLike | None = ...,
+        hub_angle_rad: ArrayLike | None = ...,
+        hub_velocity_rad_per_s: ArrayLike | None = ...,
+        tip_acceleration_m_per_s2: ArrayLike | None = ...,
+        tip_displacement_m: ArrayLike | None = ...,
+        tip_deflection_m: ArrayLike | None = ...,
+        **columns: ArrayLike | None,
+    ) -> None: ...
+    @property
+    def torque_hold(self) -> str: ...
+    @property
+    def initial(self) -> str: ...
+    @property
+    def controller(self) -> Controller | None: ...
     @property
     def time_s(self) -> _Floats: ...
     @property
     def torque_N_m(self) -> _Floats: ...
     @property
     def reference(self) -> _Floats | None: ...
+    @property
+    def reference_unit(self) -> str: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
     @property
@@ -475,8 +554,25 @@ class TimeRun:
     def purpose(self) -> str | None: ...
     @property
     def payload_mass_kg(self) -> float | None: ...
+    def to_pandas(self) -> Any: ...
 
 class FrequencyRun:
+    def __init__(
+        self,
+        data: Any = ...,
+        *,
+        id: str = ...,
+        purpose: str = ...,
+        payload_mass_kg: float | None = ...,
+        payload_inertia_kg_m2: float | None = ...,
+        frequency_Hz: ArrayLike | None = ...,
+        hub_angle_rad_per_N_m: ArrayLike | None = ...,
+        hub_velocity_rad_per_s_per_N_m: ArrayLike | None = ...,
+        tip_acceleration_m_per_s2_per_N_m: ArrayLike | None = ...,
+        tip_displacement_m_per_N_m: ArrayLike | None = ...,
+        tip_deflection_m_per_N_m: ArrayLike | None = ...,
+        **columns: ArrayLike | None,
+    ) -> None: ...
     @property
     def id(self) -> str: ...
     @property
@@ -485,11 +581,25 @@ class FrequencyRun:
     def payload_mass_kg(self) -> float | None: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
+    @property
+    def units(self) -> tuple[str, ...]: ...
     def __getitem__(self, sensor: str) -> _Complexes: ...
     def frequency_Hz(self, sensor: str) -> _Floats: ...
     def coherence(self, sensor: str) -> _Floats: ...
+    def to_pandas(self) -> Any: ...
 
 class ModalEntry:
+    def __init__(
+        self,
+        feature: str,
+        frequency_Hz: float | None = ...,
+        *,
+        sensor: str | None = ...,
+        order: int | None = ...,
+        frequency_std_Hz: float | None = ...,
+        damping_ratio: float | None = ...,
+        damping_ratio_std: float | None = ...,
+    ) -> None: ...
     @property
     def feature(self) -> str: ...
     @property
@@ -506,6 +616,15 @@ class ModalEntry:
     def damping_ratio_std(self) -> float | None: ...
 
 class ModalRun:
+    def __init__(
+        self,
+        entries: Any,
+        *,
+        id: str = ...,
+        purpose: str = ...,
+        payload_mass_kg: float | None = ...,
+        payload_inertia_kg_m2: float | None = ...,
+    ) -> None: ...
     @property
     def id(self) -> str: ...
     @property
@@ -514,14 +633,26 @@ class ModalRun:
     def payload_mass_kg(self) -> float | None: ...
     @property
     def entries(self) -> list[ModalEntry]: ...
+    def to_pandas(self) -> Any: ...
 
 class Measurement:
+    def __init__(
+        self,
+        arm: Arm | _Path | None,
+        runs: _Run | Sequence[_Run],
+        name: str = ...,
+    ) -> None: ...
     @property
     def name(self) -> str: ...
     @property
+    def arm(self) -> Arm | None: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def write(self, folder: _Path) -> None: ...
+    @property
     def arm_file(self) -> str: ...
     @property
-    def runs(self) -> list[TimeRun | FrequencyRun | ModalRun]: ...
+    def runs(self) -> list[_Run]: ...
 
 class IdentifiedRoot:
     @property
@@ -570,6 +701,7 @@ class Identification:
     def to_json(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class Detection:
     @property
@@ -592,6 +724,7 @@ class Plan:
     def improved_plan(self) -> str: ...
     def to_json(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
+    def to_pandas(self) -> Any: ...
 
 class ParameterEstimate:
     @property
@@ -707,10 +840,44 @@ class Diagnosis:
     def to_dict(self) -> dict[str, Any]: ...
     def write_json(self, path: _Path) -> None: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 def arm_numbers() -> list[ArmNumber]: ...
 def effects() -> list[EffectDefinition]: ...
 def read_arm(path: _Path) -> Arm: ...
+def import_log(
+    path: _Path | Sequence[_Path],
+    *,
+    arm: Arm | _Path | None = ...,
+    name: str = ...,
+    column: _Texts | Mapping[str, str] = ...,
+    compute: _Texts = ...,
+    torque: str = ...,
+    time_unit: str = ...,
+    reference: str = ...,
+    own_rate: _Texts = ...,
+    leave_out: _Texts = ...,
+    controller: str = ...,
+    join: bool = ...,
+    join_grid: str = ...,
+    kind: str = ...,
+    sample_time_s: float | None = ...,
+    raw_columns: int | None = ...,
+    id: str = ...,
+    rows: str = ...,
+    times: str = ...,
+    runs: _Texts = ...,
+    decimate: int | None = ...,
+    clock: str = ...,
+    fill_gaps: int = ...,
+    purpose: str = ...,
+    validation: _Texts = ...,
+    hold: str = ...,
+    initial: str = ...,
+    payload_mass_kg: float | None = ...,
+    payload_inertia_kg_m2: float | None = ...,
+    progress: _Progress = ...,
+) -> Measurement: ...
 def read_measurement(path: _Path) -> Measurement: ...
 def sampled_torque(
     excitation: str, *, duration_s: float = ..., sample_time_s: float = ...
@@ -727,8 +894,8 @@ def simulate(
     sample_time_s: float | None = ...,
     seed: int = ...,
     noise: float = ...,
-    noise_of: Mapping[str, float] = ...,
-    quantisation: Mapping[str, float] = ...,
+    noise_of: Mapping[str, float] | None = ...,
+    quantisation: Mapping[str, float] | None = ...,
     formulation: str = ...,
     elements: int | None = ...,
     degree: int | None = ...,
@@ -752,8 +919,8 @@ def simulate_experiment(
     sample_time_s: float | None = ...,
     seed: int = ...,
     noise: float = ...,
-    noise_of: Mapping[str, float] = ...,
-    quantisation: Mapping[str, float] = ...,
+    noise_of: Mapping[str, float] | None = ...,
+    quantisation: Mapping[str, float] | None = ...,
     formulation: str = ...,
     elements: int | None = ...,
     degree: int | None = ...,
@@ -766,7 +933,7 @@ def simulate_experiment(
     check_step: bool = ...,
 ) -> SimulatedExperiment: ...
 def identify(
-    path: _Path,
+    measurement: _Path | Measurement,
     *,
     runs: Sequence[str] = ...,
     sensors: Sequence[str] = ...,
@@ -793,7 +960,7 @@ def plan(
     progress: _Progress = ...,
 ) -> Plan: ...
 def diagnose(
-    path: _Path,
+    measurement: _Path | Measurement,
     *,
     effects: Sequence[str] = ...,
     exclude: Sequence[str] = ...,

@@ -15,10 +15,14 @@ def program():
     return shutil.which("flexarm")
 
 
-if __name__ == "__main__":
-    found = program()
-    if found is None:
+def main():
+    path = program()
+    if path is None:
         print("flexarm: the program is not installed beside the package, nor on PATH",
               file=sys.stderr)
         sys.exit(2)
-    os.execv(found, [found, *sys.argv[1:]])
+    os.execv(path, [path, *sys.argv[1:]])
+
+
+if __name__ == "__main__":
+    main()

@@ -24,7 +24,6 @@ class Results(unittest.TestCase):
         self.assertIs(type(again), type(result))
         self.assertEqual(again, result)
         self.assertEqual(hash(again), hash(result))
-        self.assertEqual(repr(again), repr(result))
         self.assertEqual(copy.deepcopy(result), result)
         return again
 
@@ -51,7 +50,7 @@ class Results(unittest.TestCase):
     def test_of_a_simulation(self):
         experiment = flexarm.simulate_experiment(
             ARM.with_effect("coulomb_friction", torque=0.005),
-            ["multisine:rms=0.05,to=40", "stepped-sine:amplitude=0.05,bands=10/11,points=2"],
+            ["multisine:rms=0.05,to=40", "stepped-sine:amplitude=0.05,from=10,to=11,points=2"],
             duration_s=1.0, sample_time_s=2e-3, modes=3)
         again = self.assertKept(experiment)
         self.assertEqual(again.to_json(), experiment.to_json())

@@ -180,4 +180,19 @@ IdentificationTask read_identification_task(const std::filesystem::path& measure
   return task;
 }
 
+IdentificationTask identification_task(const Recording& recording,
+                                       const IdentificationRequest& request) {
+  IdentificationTask task{{recording.name, "", {}}, recording.arm, {}, {}};
+  for (const auto& [run, data] : recording.runs) task.measurement.runs.push_back(run);
+  arm::require_valid(task.arm);
+  task.options = options_of(request, task.arm);
+  for (const auto& chosen : chosen_runs(request, task.measurement, "the measurement")) {
+    task.runs.push_back(*std::ranges::find(recording.runs, chosen.id, [](const auto& one) {
+      return one.run.id;
+    }));
+  }
+  select_sensors(request, task.runs);
+  return task;
+}
+
 }  // namespace flexarm::compare

@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/option_name.hpp"
+#include "compare/recording.hpp"
 #include "measured/run_identification.hpp"
 
 #include <filesystem>
@@ -49,5 +50,9 @@ struct IdentificationTask {
 /// a reader does, and for what is asked for and not there, or out of its range.
 IdentificationTask read_identification_task(const std::filesystem::path& measurement_file,
                                             const IdentificationRequest& request);
+
+/// The same of a measurement in memory.
+IdentificationTask identification_task(const Recording& recording,
+                                       const IdentificationRequest& request);
 
 }  // namespace flexarm::compare

@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/deadline.hpp"
+#include "compare/recording.hpp"
 #include "diagnose/measured_motion.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/run_identification.hpp"
@@ -66,6 +67,11 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 Experiment read_experiment(const std::filesystem::path& measurement_file,
                            const std::vector<measured::Fault>& accepted = {},
                            const arm::Deadline& deadline = {});
+
+/// The same of a recording that was read or is in memory.
+Experiment experiment_of(compare::Recording recording,
+                         const std::vector<measured::Fault>& accepted = {},
+                         const arm::Deadline& deadline = {});
 
 /// Gives every run without a purpose one. Runs that say nothing are for estimation where another
 /// is for validation. Where none is, the last run of a payload is, of the payload with most runs;

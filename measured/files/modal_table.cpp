@@ -230,6 +230,10 @@ std::string format_modal_table(const ModalTable& table) {
   return out;
 }
 
+void require_valid(const ModalTable& table) {
+  parse_modal_table(format_modal_table(table), "modal table");
+}
+
 void write_modal_table(const ModalTable& table, const std::filesystem::path& path) {
   measured::write_atomically(path, format_modal_table(table));
 }

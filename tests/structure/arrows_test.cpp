@@ -27,12 +27,14 @@ const std::map<std::string, Rooms>& allowed_arrows() {
     map["measured"] = {"arm"};
     map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
     map["experiment"] = {"arm", "measured", "response"};
+    map["importing"] = {"arm", "measured", "experiment"};
     map["compare"] = {"arm", "effects", "exact_tf", "fem", "assumed_modes", "response", "measured"};
     map["diagnose"] = {"arm", "effects", "exact_tf", "response", "compare", "measured"};
     map["report"] = {"arm", "effects", "response", "experiment", "compare", "measured", "diagnose"};
     map["export"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
     map["app"] = {"arm",      "effects",    "exact_tf", "fem",      "assumed_modes", "measured",
-                  "response", "experiment", "compare",  "diagnose", "report",        "export"};
+                  "response", "experiment", "compare",  "diagnose", "report",        "export",
+                  "importing"};
     map["python"] = map["app"];
     return map;
   }();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/imported_file.hpp"
 #include "arm/controller.hpp"
+#include "importing/imported_file.hpp"
 #include "measured/files/measurement.hpp"
 
 #include <cstddef>
@@ -10,11 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
-namespace flexarm::app {
+namespace flexarm::importing {
 
 /// Which runs are made of a file, and how its times are treated; as typed.
 struct RunsChoice {
@@ -56,7 +52,4 @@ std::vector<ImportedRun> runs_of(const ImportedFile& file, const RunsChoice& cho
 /// Gives the runs their purposes. Throws InputError for an id that no run has.
 void set_purposes(std::vector<ImportedRun>& runs, const RunsChoice& choice);
 
-/// Adds the options to a command.
-void add_runs_choice(CLI::App& parser, RunsChoice& choice);
-
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/column_choice.hpp"
 #include "arm/controller.hpp"
+#include "importing/column_choice.hpp"
 #include "measured/files/foreign_file.hpp"
 #include "measured/files/run_data.hpp"
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 /// How a foreign file is read.
 struct FileChoice {
@@ -51,4 +51,4 @@ ReadFile read_file(const std::string& file, const FileChoice& choice);
 /// the columns found, where time or torque cannot be told or nothing is a sensor.
 ImportedFile import_file(ReadFile read, const FileChoice& choice);
 
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

@@ -1,4 +1,4 @@
-#include "app/imported_responses.hpp"
+#include "importing/imported_responses.hpp"
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_guess.hpp"
@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 namespace {
 
@@ -124,4 +124,4 @@ void take_typed_responses(ForeignFile& file, const FileChoice& choice) {
   std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
 }
 
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

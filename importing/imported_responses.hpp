@@ -1,9 +1,9 @@
 #pragma once
 
-#include "app/imported_file.hpp"
+#include "importing/imported_file.hpp"
 #include "measured/files/foreign_file.hpp"
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 /// Puts the responses whose columns are typed by their parts in place of those recognised in the
 /// table. Throws InputError as `ColumnChoice::response_parts` and `responses_of`.
@@ -16,4 +16,4 @@ void take_typed_responses(measured::ForeignFile& file, const FileChoice& choice)
 void read_responses(const measured::ForeignFile& file, const FileChoice& choice,
                     ImportedFile& imported);
 
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

@@ -1,16 +1,14 @@
-#include "app/import_runs.hpp"
+#include "importing/import_runs.hpp"
 
-#include "app/command.hpp"
-#include "app/run_choice.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "arm/range.hpp"
 #include "arm/read_word.hpp"
+#include "experiment/run_choice.hpp"
 #include "measured/files/decimation.hpp"
 #include "measured/files/even_record.hpp"
 #include "measured/files/record_range.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,11 +19,14 @@
 #include <string_view>
 #include <utility>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 namespace {
 
 using arm::InputError;
+using experiment::id_of_file;
+using experiment::read_purpose;
+using experiment::require_id;
 using measured::Clock;
 using measured::InitialState;
 using measured::RecordRange;
@@ -295,44 +296,4 @@ void set_purposes(std::vector<ImportedRun>& runs, const RunsChoice& choice) {
   }
 }
 
-void add_runs_choice(CLI::App& parser, RunsChoice& choice) {
-  parser.add_option("--id", choice.id, "Run id; default: file name");
-  parser.add_option("--rows", choice.rows,
-                    "Rows FROM:TO of the data, counted from 1; one end can be left out");
-  parser.add_option("--times", choice.times, "Times FROM:TO [s], as in the file");
-  parser
-      .add_option("--run", choice.runs,
-                  "ID=FROM:TO [s] or ID=rows:FROM:TO: a range of the file as a run of its own. "
-                  "Repeat for more runs")
-      ->allow_extra_args(false);
-  parser.add_option("--decimate", choice.decimation,
-                    "Every N-th sample, after a zero-phase low-pass of all signals; the torque "
-                    "then has a first-order hold");
-  parser
-      .add_option("--clock", choice.clock,
-                  "Uneven times: stamped (the samples were taken then, and are resampled) or even "
-                  "(the stamps are late, the samples even)")
-      ->capture_default_str();
-  parser
-      .add_option("--fill-gaps", choice.longest_filled_gap,
-                  "Longest gap [samples] that is filled by interpolation; a longer one splits the "
-                  "run")
-      ->capture_default_str();
-  parser.add_option("--purpose", choice.purpose, "Purpose of the runs: estimation or validation");
-  parser
-      .add_option("--validation", choice.validation,
-                  "Id of a run for validation; the others are for estimation. Repeat for more")
-      ->allow_extra_args(false);
-  parser.add_option("--hold", choice.hold,
-                    "Torque between samples: zero (zero-order hold, default) or first (first-order "
-                    "hold, default after --decimate)");
-  parser.add_option("--initial", choice.initial,
-                    "Initial state: rest or free (unknown); default: rest, and free for a run that "
-                    "does not begin where its file does");
-  parser.add_option("--payload-mass", choice.payload_mass_kg,
-                    "Payload mass [kg] of the runs instead of that of the arm");
-  parser.add_option("--payload-inertia", choice.payload_inertia_kg_m2,
-                    "Payload inertia about its centre of mass [kg m^2] of the runs");
-}
-
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

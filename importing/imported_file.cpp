@@ -1,8 +1,8 @@
-#include "app/imported_file.hpp"
+#include "importing/imported_file.hpp"
 
-#include "app/imported_responses.hpp"
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
+#include "importing/imported_responses.hpp"
 #include "measured/checks/time_unit_check.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/complete_rows.hpp"
@@ -22,7 +22,7 @@
 #include <string_view>
 #include <utility>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 namespace {
 
@@ -185,9 +185,8 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
         "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}",
         quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
         quantity == std::string_view("torque") ? asked(guess, true) : "", besides(file.left_out),
-        file.incomplete_response.empty()
-            ? ""
-            : "; no frequency response: " + file.incomplete_response));
+        file.incomplete_response.empty() ? ""
+                                         : "; no frequency response: " + file.incomplete_response));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -376,4 +375,4 @@ ImportedFile import_file(ReadFile read, const FileChoice& choice) {
   return imported;
 }
 
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

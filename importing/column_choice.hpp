@@ -12,11 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
-namespace flexarm::app {
+namespace flexarm::importing {
 
 /// The column with the reference of a closed loop; it is read like one of the sensor.
 struct ReferenceColumn {
@@ -82,11 +78,7 @@ struct ColumnChoice {
   void set_time_unit(measured::ColumnMappings& mappings) const;
 };
 
-/// Adds `--column`, `--compute`, `--torque`, `--time-unit`, `--reference` and `--leave-out` to a
-/// command.
-void add_column_choice(CLI::App& parser, ColumnChoice& choice);
-
 /// A product of numbers and of pi, as in "0.202*pi/180". Throws InputError for any other text.
 double read_scale(std::string_view text);
 
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

@@ -1,4 +1,4 @@
-#include "app/column_choice.hpp"
+#include "importing/column_choice.hpp"
 
 #include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
@@ -20,7 +20,7 @@
 #include <optional>
 #include <utility>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 namespace {
 
@@ -399,4 +399,4 @@ void ColumnChoice::set_time_unit(measured::ColumnMappings& mappings) const {
                                fmt::join(names, " or "), arm::did_you_mean(time_unit, names)));
 }
 
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

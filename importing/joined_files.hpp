@@ -1,16 +1,12 @@
 #pragma once
 
-#include "app/imported_file.hpp"
+#include "importing/imported_file.hpp"
 #include "measured/files/joined_table.hpp"
 
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
-namespace flexarm::app {
+namespace flexarm::importing {
 
 /// Whether files are one run, and on which times; as typed.
 struct JoinChoice {
@@ -27,7 +23,4 @@ struct JoinChoice {
 ImportedFile import_joined(const std::vector<std::string>& files, const FileChoice& choice,
                            const JoinChoice& join, measured::TorqueHold hold);
 
-/// Adds `--join` and `--join-grid` to a command.
-void add_join_choice(CLI::App& parser, JoinChoice& choice);
-
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

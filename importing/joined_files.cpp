@@ -1,11 +1,9 @@
-#include "app/joined_files.hpp"
+#include "importing/joined_files.hpp"
 
-#include "app/command.hpp"
 #include "arm/input_error.hpp"
 #include "arm/read_word.hpp"
 #include "measured/files/column_lookup.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +15,7 @@
 #include <set>
 #include <utility>
 
-namespace flexarm::app {
+namespace flexarm::importing {
 
 namespace {
 
@@ -34,8 +32,7 @@ bool is_of_time(const std::string& typed) {
 std::vector<ColumnLabel> labels_of(const std::vector<ForeignColumn>& columns) {
   std::vector<ColumnLabel> labels;
   for (const auto& column : columns) {
-    labels.push_back(
-        {column.name, column.unit, column.is_text(), column.is_stamp, column.path});
+    labels.push_back({column.name, column.unit, column.is_text(), column.is_stamp, column.path});
   }
   return labels;
 }
@@ -169,15 +166,4 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
   return import_file(std::move(joined), of_joined);
 }
 
-void add_join_choice(CLI::App& parser, JoinChoice& choice) {
-  parser.add_flag("--join", choice.is_wanted,
-                  "The files are one run, with some of its signals each; they are joined by time");
-  parser
-      .add_option("--join-grid", choice.grid,
-                  "Times of the joined run: same (those of all files, which must agree), first "
-                  "(those of the first file) or coarsest (those of the file with the longest "
-                  "period); the others are resampled")
-      ->capture_default_str();
-}
-
-}  // namespace flexarm::app
+}  // namespace flexarm::importing

@@ -184,7 +184,7 @@ IdentificationTask identification_task(const Recording& recording,
                                        const IdentificationRequest& request) {
   IdentificationTask task{{recording.name, "", {}}, recording.arm, {}, {}};
   for (const auto& [run, data] : recording.runs) task.measurement.runs.push_back(run);
-  arm::require_valid(task.arm);
+  arm::require_valid(recording.arm);
   task.options = options_of(request, task.arm);
   for (const auto& chosen : chosen_runs(request, task.measurement, "the measurement")) {
     task.runs.push_back(*std::ranges::find(recording.runs, chosen.id, [](const auto& one) {

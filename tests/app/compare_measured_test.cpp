@@ -129,7 +129,7 @@ TEST_F(CompareMeasured, ItsVerdictDecidesTheExitStatus) {
   EXPECT_EQ(compared("far.csv", {"--measured-tolerance", "46"})["measured_verdict"]["verdict"],
             "agrees");
   expect_refused(run({"compare", "rig.toml", "--measured", "far.csv", "--measured-tolerance=-1"}),
-                 "flexarm: --measured-tolerance = -1 %: must be a finite number of 0 or more");
+                 "--measured-tolerance = -1 %: must be a finite number, 0 or more");
   // Without a measurement there is no verdict on one.
   const Ended alone = run({"compare", "rig.toml", "--quick", "--poles", "3", "--json", "c.json"});
   EXPECT_EQ(alone.status, 0);

@@ -24,6 +24,13 @@ constexpr const char* kUncertainArm =
     "flexural_rigidity_uncertainty = 0.02\nlinear_density = 0.164858\n"
     "[hub]\ninertia = 5.86e-4\n";
 
+/// Its highest modes are overdamped: few modes make its motion.
+constexpr const char* kDampedArm =
+    "[beam]\nlength = 0.96\nthickness = 0.0032\nflexural_rigidity = 3.6918\n"
+    "linear_density = 0.164858\n[hub]\ninertia = 5.86e-4\n[damping]\nkelvin_voigt = 5e-4\n";
+/// What the default of --measured-tolerance allows: 100 % less 5 %.
+constexpr double kLeastFit_percent = 95.0;
+
 class CompareMeasured : public Flexarm {
  protected:
   /// The comparison of rig.toml with a measurement, and its text.
@@ -108,7 +115,7 @@ TEST_F(CompareMeasured, TakesTheRunsOfAMeasurementThatAreOfThisArm) {
 }
 
 TEST_F(CompareMeasured, ItsVerdictDecidesTheExitStatus) {
-  write("rig.toml", kUncertainArm);
+  write("rig.toml", kDampedArm);
   write("near.csv", "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,12.00\n");
   write("far.csv", "sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,17.20\n");
   EXPECT_EQ(compared("near.csv")["measured_verdict"]["verdict"], "agrees");
@@ -122,7 +129,7 @@ TEST_F(CompareMeasured, ItsVerdictDecidesTheExitStatus) {
   EXPECT_EQ(compared("far.csv", {"--measured-tolerance", "46"})["measured_verdict"]["verdict"],
             "agrees");
   expect_refused(run({"compare", "rig.toml", "--measured", "far.csv", "--measured-tolerance=-1"}),
-                 "flexarm: --measured-tolerance = -1 %: must be a finite number of 0 or more");
+                 "--measured-tolerance = -1 %: must be a finite number, 0 or more");
   // Without a measurement there is no verdict on one.
   const Ended alone = run({"compare", "rig.toml", "--quick", "--poles", "3", "--json", "c.json"});
   EXPECT_EQ(alone.status, 0);
@@ -173,8 +180,9 @@ TEST_F(CompareMeasured, PolesOfADampedArmAreComparedWithDampedPoles) {
 }
 
 TEST_F(CompareMeasured, SimulatesTimeRunsOfTheMeasurementsOwnArm) {
-  write("rig.toml", kUncertainArm);
-  ASSERT_EQ(run({"simulate", "rig.toml", "--duration", "2", "--out", "s"}).status, 0);
+  write("rig.toml", kDampedArm);
+  ASSERT_EQ(run({"simulate", "rig.toml", "--modes", "16", "--duration", "2", "--out", "s"}).status,
+            0);
   const Ended ended = run({"compare", "--quick", "--poles", "2", "--measured", "s/measurement.toml",
                            "--json", "c.json", "--out", "out", "--report", "out/report.html"});
   ASSERT_EQ(ended.status, 0) << ended.errors;
@@ -183,7 +191,7 @@ TEST_F(CompareMeasured, SimulatesTimeRunsOfTheMeasurementsOwnArm) {
   const Json runs = Json::parse(text_of("c.json"))["comparisons"][0]["measured_runs"];
   ASSERT_EQ(runs.size(), 1U);
   for (const auto& channel : runs[0]["channels"]) {
-    EXPECT_GT(channel["fit_percent"].get<double>(), 99.0) << channel["channel"];
+    EXPECT_GT(channel["fit_percent"].get<double>(), kLeastFit_percent) << channel["channel"];
     EXPECT_NEAR(channel["nrmse_percent"].get<double>(),
                 100.0 - channel["fit_percent"].get<double>(), 1e-9);
     EXPECT_EQ(channel["simulated"].size(), runs[0]["time_s"].size());
@@ -198,9 +206,11 @@ TEST_F(CompareMeasured, SimulatesTimeRunsOfTheMeasurementsOwnArm) {
 }
 
 TEST_F(CompareMeasured, ARunThatAnotherArmMadeDiffers) {
-  write("rig.toml", kUncertainArm);
-  write("rubbing.toml", std::string(kUncertainArm) + "[effects.coulomb_friction]\ntorque = 0.05\n");
-  ASSERT_EQ(run({"simulate", "rubbing.toml", "--duration", "2", "--out", "s"}).status, 0);
+  write("rig.toml", kDampedArm);
+  write("rubbing.toml", std::string(kDampedArm) + "[effects.coulomb_friction]\ntorque = 0.05\n");
+  ASSERT_EQ(
+      run({"simulate", "rubbing.toml", "--modes", "16", "--duration", "2", "--out", "s"}).status,
+      0);
   const Json comparison = compared("s/measurement.toml", {}, 1);
   EXPECT_EQ(comparison["measured_verdict"]["verdict"], "differs");
   EXPECT_THAT(text_, HasSubstr("flexarm diagnose s/measurement.toml\n"));
@@ -209,9 +219,9 @@ TEST_F(CompareMeasured, ARunThatAnotherArmMadeDiffers) {
 }
 
 TEST_F(CompareMeasured, SimulatesAClosedLoopByItsReference) {
-  write("rig.toml", std::string(kUncertainArm) + "[effects.coulomb_friction]\ntorque = 0.01\n");
-  ASSERT_EQ(run({"simulate", "rig.toml", "--duration", "3", "--period", "0.002", "--reference",
-                 "staircase:amplitude=0.3,dwell=0.7,levels=2", "--controller",
+  write("rig.toml", std::string(kDampedArm) + "[effects.coulomb_friction]\ntorque = 0.01\n");
+  ASSERT_EQ(run({"simulate", "rig.toml", "--modes", "16", "--duration", "3", "--period", "0.002",
+                 "--reference", "staircase:amplitude=0.3,dwell=0.7,levels=2", "--controller",
                  "kp=0.2,kd=0.05,limit=0.15,sample_time=0.004", "--out", "loop"})
                 .status,
             0);
@@ -220,7 +230,7 @@ TEST_F(CompareMeasured, SimulatesAClosedLoopByItsReference) {
   EXPECT_TRUE(comparison["measured_runs"][0]["closed_loop"].get<bool>());
   EXPECT_EQ(channels.back()["channel"], "torque");
   for (const auto& channel : channels) {
-    EXPECT_GT(channel["fit_percent"].get<double>(), 98.0) << channel["channel"];
+    EXPECT_GT(channel["fit_percent"].get<double>(), kLeastFit_percent) << channel["channel"];
   }
 }
 

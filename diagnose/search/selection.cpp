@@ -51,13 +51,6 @@ class Search {
         revision_(problem_, options, fits_, work_) {}
 
   Selection run() {
-    Selection made = found();
-    made.problem = problem_.until({});
-    return made;
-  }
-
- private:
-  Selection found() {
     Selection made{.problem = problem_, .hypotheses = hypotheses_.size()};
     try {
       search(made);
@@ -67,9 +60,11 @@ class Search {
     }
     made.rivals = indistinguishable_sets(made, posterior_of(made, options_));
     std::ranges::stable_sort(made.ruled_out, std::ranges::greater{}, &RuledOut::share);
+    made.problem = problem_.until({});
     return made;
   }
 
+ private:
   void search(Selection& made) {
     work_.tell(kNothing, 0.0);
     made.nothing = fits_.fitted(fits_.scan().first_look(problem_.as_filed()).candidate);

@@ -126,6 +126,7 @@ ModeChoice choose_modes(const arm::Arm& arm, const std::vector<PlannedRun>& runs
     for (std::size_t r = 0; r < runs.size(); ++r) {
       arm::Arm loaded = arm;
       loaded.payload = runs[r].payload.value_or(arm.payload);
+      response::formulation_of_fit(loaded);  // throws for a payload that is none
       try {
         const auto one = truncation_of(runs[r], loaded, sensors, options, count);
         all.modes = std::max(all.modes, one.modes);

@@ -283,7 +283,7 @@ TEST_F(Identify, AnAliasIsNoPoleAndOnePeakHasOneOrder) {
            "random:rms=0.02,from=0.5,to=240,id=a,seed=3", "--duration", "20", "--period", "0.002",
            "--sensor", "hub_angle,tip_acceleration", "--noise", "0.05", "--out", "run"});
   ASSERT_EQ(made.status, 0) << made.errors;
-  for (const std::string& rigidity : {"1.36", "2.3", "3.6"}) {
+  for (const std::string rigidity : {"1.36", "2.3", "3.6"}) {
     write("run/arm.toml", beam + rigidity + "\n" + rest);
     const Ended ended = run({"identify", "run/measurement.toml", "--json", "out.json"});
     ASSERT_EQ(ended.status, 0) << ended.errors;

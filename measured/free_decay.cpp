@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kWindows = 50;
 constexpr std::size_t kLeastWindow = 8;
 constexpr double kMoves = 0.5;
+/// The part below which, in the median, windows before that are of an arm that is held.
+constexpr double kQuiet = 0.1;
 
 /// Standard deviation of the values within each of the windows that follow each other.
 std::vector<double> local_deviations(std::span<const double> values, std::size_t window) {
@@ -37,7 +39,10 @@ std::size_t begin_of_motion(std::span<const double> values) {
     const auto moves = std::ranges::find_if(
         deviations, [&](double deviation) { return deviation >= kMoves * largest; });
     const auto index = static_cast<std::size_t>(moves - deviations.begin());
-    if (index > 0) return (index + 1) * window;
+    if (index > 0) {
+      const bool is_quiet = median({deviations.begin(), moves}) <= kQuiet * largest;
+      return is_quiet ? (index + 1) * window : 0;
+    }
     if (window == kLeastWindow) return 0;
     looked_at = 2 * window;
   }

@@ -69,7 +69,8 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
       fmt::format("Modal fit of {}{}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
                   "section{}; {}{}",
                   report::joined(report::ids_of(fit, identification)),
-                  fit.hub_held       ? ", responses to the hub motion"
+                  fit.fit.free_decay ? ", free decay"
+                  : fit.hub_held     ? ", responses to the hub motion"
                   : fit.of_responses ? ", estimated responses"
                                      : "",
                   fit.fit.band.from_Hz, fit.fit.band.to_Hz, modes, modes == 1 ? "" : "s", others,

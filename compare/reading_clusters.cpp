@@ -260,8 +260,8 @@ void mark_aliases_by_spacing(RootClusters& clusters) {
   }
 }
 
-/// Poles, and zeros sensor by sensor, counted from 1 up. Where there is a fit, what it lacks is not
-/// counted: a peak by chance would move all orders above it.
+/// Poles, and zeros sensor by sensor, counted from 1 up. Where there is a fit, what it lacks counts
+/// if two readings have it: a peak by chance would move all orders above it.
 void count_up(RootClusters& clusters) {
   const auto is_fitted = [](const RootCluster& cluster) {
     return cluster.estimates.front().method == Method::rational_fit;
@@ -269,7 +269,8 @@ void count_up(RootClusters& clusters) {
   const bool has_fit = std::ranges::any_of(clusters, is_fitted);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     RootCluster& cluster = clusters[c];
-    if (cluster.place.alias_of_Hz || (has_fit && !is_fitted(cluster))) continue;
+    const bool is_sure = !has_fit || is_fitted(cluster) || cluster.estimates.size() > 1;
+    if (cluster.place.alias_of_Hz || !is_sure) continue;
     int order = 1;
     for (std::size_t k = 0; k < c; ++k) {
       const RootCluster& below = clusters[k];

@@ -13,9 +13,11 @@ namespace {
 
 /// Windows that a record is looked through for the release of an arm, samples in the shortest, and
 /// the part of the largest standard deviation from which one moves.
-constexpr std::size_t kWindows = 50;
+constexpr std::size_t kStretchesOfRecord = 50;
 constexpr std::size_t kLeastWindow = 8;
 constexpr double kMoves = 0.5;
+/// The part below which, in the median, windows before that are of an arm that is held.
+constexpr double kQuiet = 0.1;
 
 /// Standard deviation of the values within each of the windows that follow each other.
 std::vector<double> local_deviations(std::span<const double> values, std::size_t window) {
@@ -31,13 +33,16 @@ std::vector<double> local_deviations(std::span<const double> values, std::size_t
 std::size_t begin_of_motion(std::span<const double> values) {
   std::size_t looked_at = values.size();
   while (true) {
-    const std::size_t window = std::max(kLeastWindow, looked_at / kWindows);
+    const std::size_t window = std::max(kLeastWindow, looked_at / kStretchesOfRecord);
     const auto deviations = local_deviations(values.first(looked_at), window);
     const double largest = *std::ranges::max_element(deviations);
     const auto moves = std::ranges::find_if(
         deviations, [&](double deviation) { return deviation >= kMoves * largest; });
     const auto index = static_cast<std::size_t>(moves - deviations.begin());
-    if (index > 0) return (index + 1) * window;
+    if (index > 0) {
+      const bool is_quiet = median({deviations.begin(), moves}) <= kQuiet * largest;
+      return is_quiet ? (index + 1) * window : 0;
+    }
     if (window == kLeastWindow) return 0;
     looked_at = 2 * window;
   }

@@ -68,6 +68,7 @@ void keep_decay(TimeRecord& record, RunIdentification& made) {
   const std::size_t begin = begin_of_decay(record);
   made.decay_begins_s = record.time_s[begin];
   made.left_out_before_decay = begin;
+  made.hub_at_rest = std::ranges::any_of(made.left_out, arm::is_collocated);
   const auto cut = [begin](std::vector<double>& values) {
     values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(begin));
   };
@@ -235,7 +236,7 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
     const auto& estimate = studied[r].estimate;
     const bool of_responses = estimate && is_fitted_by_responses(*estimate);
     const auto group = std::ranges::find_if(groups, [&](const RunsFit& fitted) {
-      return !of_responses && !fitted.of_responses &&
+      return !of_responses && !fitted.of_responses && fitted.hub_held == studied[r].hub_held() &&
              fit_together(runs[fitted.runs.front()], runs[r]);
     });
     if (group == groups.end()) {

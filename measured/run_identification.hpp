@@ -61,6 +61,7 @@ struct RunIdentification {
   /// something of it.
   std::optional<double> decay_begins_s = {};
   std::size_t left_out_before_decay = 0;  ///< samples
+  bool hub_at_rest = false;               ///< of a decay: a sensor of the hub shows no motion
   /// Of a `frf` run as it is, of a `time` run as estimated, from the torque or the hub's motion.
   FrequencyRecord response = {};
   std::optional<FrequencyResponseEstimate> estimate = {};  ///< of a `time` run
@@ -68,8 +69,11 @@ struct RunIdentification {
   std::vector<SensorCircles> circles = {};
   std::optional<Distortion> distortion = {};  ///< where the torque repeats itself, in open loop
 
-  /// Whether responses are those to the hub's motion.
-  bool hub_held() const { return estimate && estimate->settings.estimator.hub_held(); }
+  /// Whether poles are those with the hub held: of responses to its motion, and of a decay while it
+  /// rests.
+  bool hub_held() const {
+    return hub_at_rest || (estimate && estimate->settings.estimator.hub_held());
+  }
 };
 
 /// A rational fit of runs with one payload, torque hold and sampling period, of one `frf` run, or
@@ -81,7 +85,7 @@ struct RunsFit {
   ModalFit fit = {};
   std::string unphysical = {};  ///< what of the fit no arm can be; empty where nothing is
   bool of_responses = false;    ///< measured/modal/response_fit.hpp; else sample by sample
-  bool hub_held = false;        ///< of responses to the hub's motion: no gains
+  bool hub_held = false;        ///< `RunIdentification::hub_held`: no gains
   std::optional<ModalGains> gains = {};
   std::string gains_refusal = {};
 };

@@ -12,6 +12,7 @@
 #include "python/records.hpp"
 #include "report/json/identification_json.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/method_differences.hpp"
 
 #include <fmt/format.h>
 
@@ -139,8 +140,7 @@ void add_root(py::module_& module) {
       .def_property_readonly(
           "alias_of_Hz", [](const Root& self) { return self.root.alias_of_Hz; },
           "Of the alias of a mode above the Nyquist frequency: that mode's frequency [Hz].")
-      .def_property_readonly("frequency_Hz", number(&ModalEntry::frequency_Hz),
-                             "Undamped natural frequency [Hz].")
+      .def_property_readonly("frequency_Hz", number(&ModalEntry::frequency_Hz), "|s|/(2 pi) [Hz].")
       .def_property_readonly("frequency_std_Hz", number(&ModalEntry::frequency_std_Hz),
                              "Its standard error [Hz].")
       .def_property_readonly("damping_ratio", number(&ModalEntry::damping_ratio),
@@ -190,6 +190,12 @@ void add_identification(py::module_& module) {
       .def_property_readonly(
           "doubts", [](const Identified& self) { return report::doubts(self.identification); },
           "Why fits are not to be relied on: not converged, or unphysical; a list of sentences.")
+      .def_property_readonly(
+          "differences",
+          [](const Identified& self) {
+            return report::all_method_differences(self.identification, self.conditions);
+          },
+          "Poles that methods do not agree on by their errors, a list of sentences.")
       .def_property_readonly(
           "notes", [](const Identified& self) { return report::data_notes(self.identification); },
           "What was found about the data, a list of sentences.")

@@ -106,9 +106,8 @@ void judge_poles(ModalFit& fit, const ModalFitOptions& options, bool unexplained
   for (std::size_t i = 0; i < fit.poles.size(); ++i) {
     FittedPole& pole = fit.poles[i];
     pole.is_mode = false;
-    if (!fit.band.contains(pole.frequency_Hz) || pole.damping_ratio > options.most_damping_ratio) {
-      continue;
-    }
+    if (!fit.band.contains(pole.frequency_Hz)) continue;
+    if (std::abs(pole.damping_ratio) > options.most_damping_ratio) continue;
     const bool is_light = pole.damping_ratio <= kHeavy;
     if (fit.free_decay) {  // without residues
       const bool decays = pole.damping_ratio > kSureDecay * pole.damping_ratio_std;

@@ -8,6 +8,9 @@ namespace flexarm::measured {
 
 namespace {
 
+/// A valley whose place is known worse than this part of its frequency says nothing of a zero.
+constexpr double kMostZeroError = 0.25;
+
 std::vector<double> known(std::vector<double> relative_std) {
   for (double& value : relative_std) {
     if (std::isnan(value)) value = 0.0;
@@ -28,6 +31,10 @@ std::vector<SpectralFeature> features_of(const std::vector<double>& frequency_Hz
     feature.frequency_uncertainty_Hz =
         std::hypot(feature.frequency_uncertainty_Hz, errors.standard_deviation_Hz(feature.line_Hz));
   }
+  std::erase_if(found, [](const SpectralFeature& feature) {
+    return feature.feature == Feature::zero &&
+           feature.frequency_uncertainty_Hz > kMostZeroError * feature.frequency_Hz;
+  });
   return found;
 }
 

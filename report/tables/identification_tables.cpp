@@ -61,6 +61,10 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
       notes.push_back(fmt::format("{}: free decay from {:.4g} s; the samples before are left out",
                                   run.run.id, *run.decay_begins_s));
     }
+    if (run.hub_at_rest) {
+      notes.push_back(
+          fmt::format("{}: the hub is at rest: poles are those with the hub held", run.run.id));
+    }
     for (const auto& sensor : run.left_out) {
       notes.push_back(fmt::format("{}: {} excluded", run.run.id, arm::to_string(sensor)));
     }

@@ -248,7 +248,7 @@ TEST_F(Identify, NeedsNoArmAndOtherCommandsNameIt) {
   EXPECT_THAT(ended.output,
               AllOf(testing::StartsWith("random: poles"),
                     HasSubstr("the measurement states no arm"), Not(HasSubstr("exact_tf"))));
-  const Json json = Json::parse(text_of("out/identify.json"));
+  const Json json = Json::parse(text_of("out/identified.json"));
   EXPECT_TRUE(json["arm"].is_null());
   EXPECT_THAT(text_of("out/modal-fit-random.csv"), HasSubstr("pole"));
   for (const std::vector<std::string>& command :

@@ -137,5 +137,18 @@ TEST(ReadingClusters, KeepModesApartThatTheFitTellsApart) {
   EXPECT_EQ(places[1][1].order, 2);
 }
 
+TEST(ReadingClusters, CountWhatTwoReadingsHaveBesideAFit) {
+  const std::vector readings = {poles(Method::rational_fit, {}, {16.0}, 0.01),
+                                poles(Method::autopower, kHubAngle, {16.1, 23.0, 45.5}, 0.1),
+                                poles(Method::response, kHubAngle, {16.0, 45.6, 86.8}, 0.1),
+                                poles(Method::nyquist_circle, kHubAngle, {16.0, 86.9}, 0.1)};
+  const auto places = places_of(readings, std::nullopt);
+  EXPECT_EQ(places[1][0].order, 1);
+  EXPECT_FALSE(places[1][1].order);
+  EXPECT_EQ(places[1][2].order, 2);
+  EXPECT_EQ(places[2][2].order, 3);
+  EXPECT_EQ(places[3][1].order, 3);
+}
+
 }  // namespace
 }  // namespace flexarm::compare

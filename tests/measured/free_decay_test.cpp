@@ -163,5 +163,17 @@ TEST(FreeDecay, OfSeveralRunsIsFittedTogether) {
   EXPECT_EQ(found.readings.front().table.size(), 2U);
 }
 
+TEST(FreeDecay, WhileTheHubRestsIsThatOfTheHeldHub) {
+  TimeRecord record = record_of(decay_cases().front(), 1);
+  record.channels.push_back(
+      {{arm::SensorKind::hub_angle, 0.0}, std::vector<double>(record.time_s.size(), 0.001)});
+  const Identification found = identify({run_of(record)});
+  EXPECT_TRUE(found.runs.front().hub_at_rest);
+  ASSERT_EQ(found.readings.size(), 1U);
+  EXPECT_TRUE(found.readings.front().hub_held);
+  ASSERT_EQ(found.readings.front().table.size(), 2U);
+  EXPECT_NEAR(*found.readings.front().table[0].frequency_Hz, 2.9, 0.003);
+}
+
 }  // namespace
 }  // namespace flexarm::measured

@@ -31,7 +31,7 @@ std::string text_of(const arm::Arm& arm) {
 
 std::string text_of(const arm::Effect& effect) {
   if (!effect.definition) return "";
-  arm::Arm arm;
+  arm::Arm arm = arm::paper_arm();  // one that carries any effect
   arm.effects.emplace(effect.definition->name, effect);
   return measured::format_arm(arm);
 }

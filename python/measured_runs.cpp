@@ -12,11 +12,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <pybind11/stl.h>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,9 +32,33 @@ using arm::InputError;
 using measured::ModalEntry;
 using OptionalNumber = std::optional<double>;
 
-/// The facts that a run of any kind has.
-measured::Run run_of(const std::string& id, measured::RunKind kind, const std::string& purpose,
-                     OptionalNumber payload_mass_kg, OptionalNumber payload_inertia_kg_m2) {
+/// An argument as T, which `allowed` describes. Throws py::type_error, one line, for any other.
+template <class T>
+T argument(const char* name, const py::object& given, const char* allowed) {
+  try {
+    return given.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(
+        fmt::format("{} = {}: must be {}", name, std::string(py::repr(given)), allowed));
+  }
+}
+
+/// The facts that a run of any kind has, as given.
+struct RunFacts {
+  const py::object& id;
+  const py::object& purpose;
+  const py::object& payload_mass_kg;
+  const py::object& payload_inertia_kg_m2;
+};
+
+measured::Run run_of(measured::RunKind kind, const RunFacts& facts) {
+  const auto id = argument<std::string>("id", facts.id, "text");
+  const auto purpose =
+      argument<std::string>("purpose", facts.purpose, "'estimation', 'validation' or ''");
+  const auto payload_mass_kg =
+      argument<OptionalNumber>("payload_mass_kg", facts.payload_mass_kg, "a number [kg] or None");
+  const auto payload_inertia_kg_m2 = argument<OptionalNumber>(
+      "payload_inertia_kg_m2", facts.payload_inertia_kg_m2, "a number [kg m^2] or None");
   measured::Run run;
   run.id = experiment::require_id(id);
   run.kind = kind;
@@ -47,15 +73,15 @@ measured::Run run_of(const std::string& id, measured::RunKind kind, const std::s
   return run;
 }
 
-TimeRun time_run(const py::object& data, const std::string& id, const py::object& sample_time_s,
-                 const std::string& purpose, OptionalNumber payload_mass_kg,
-                 OptionalNumber payload_inertia_kg_m2, const std::string& torque_hold,
+TimeRun time_run(const py::object& data, const py::object& id, const py::object& sample_time_s,
+                 const py::object& purpose, const py::object& payload_mass_kg,
+                 const py::object& payload_inertia_kg_m2, const std::string& torque_hold,
                  const std::string& initial, const std::optional<arm::Controller>& controller,
                  const py::kwargs& columns) {
   using measured::InitialState;
   using measured::TorqueHold;
-  TimeRun made{run_of(id, measured::RunKind::time, purpose, payload_mass_kg, payload_inertia_kg_m2),
-               {}};
+  TimeRun made{
+      run_of(measured::RunKind::time, {id, purpose, payload_mass_kg, payload_inertia_kg_m2}), {}};
   made.run.torque_hold =
       arm::read_word("torque_hold", torque_hold, std::array{TorqueHold::zero, TorqueHold::first});
   made.run.initial =
@@ -71,11 +97,11 @@ TimeRun time_run(const py::object& data, const std::string& id, const py::object
   return made;
 }
 
-FrequencyRun frequency_run(const py::object& data, const std::string& id,
-                           const std::string& purpose, OptionalNumber payload_mass_kg,
-                           OptionalNumber payload_inertia_kg_m2, const py::kwargs& columns) {
+FrequencyRun frequency_run(const py::object& data, const py::object& id, const py::object& purpose,
+                           const py::object& payload_mass_kg,
+                           const py::object& payload_inertia_kg_m2, const py::kwargs& columns) {
   FrequencyRun made{
-      run_of(id, measured::RunKind::frf, purpose, payload_mass_kg, payload_inertia_kg_m2),
+      run_of(measured::RunKind::frf, {id, purpose, payload_mass_kg, payload_inertia_kg_m2}),
       frequency_record_of(columns_of(data, columns))};
   measured::require_valid(made.run, made.record);
   return made;
@@ -94,14 +120,21 @@ ModalEntry modal_entry(const std::string& feature, OptionalNumber frequency_Hz,
   entry.frequency_std_Hz = frequency_std_Hz;
   entry.damping_ratio = damping_ratio;
   entry.damping_ratio_std = damping_ratio_std;
-  measured::require_valid(measured::ModalTable{entry});
   return entry;
 }
+
+constexpr std::array<std::string_view, 7> kEntryArguments = {
+    "feature",          "frequency_Hz",  "sensor",           "order",
+    "frequency_std_Hz", "damping_ratio", "damping_ratio_std"};
 
 /// A row of a DataFrame as the arguments of ModalEntry: NaN is what is not known.
 py::dict without_nan(const py::dict& row) {
   py::dict known;
   for (const auto& [name, value] : row) {
+    if (std::ranges::count(kEntryArguments, std::string(py::str(name))) == 0) {
+      throw InputError(fmt::format("entries: {}: unknown; must be {}", std::string(py::str(name)),
+                                   fmt::join(kEntryArguments, ", ")));
+    }
     const bool is_nan = py::isinstance<py::float_>(value) && std::isnan(value.cast<double>());
     const bool is_order = name.equal(py::str("order"));  // a column with gaps has floats
     if (!is_nan)
@@ -110,14 +143,22 @@ py::dict without_nan(const py::dict& row) {
   return known;
 }
 
-ModalRun modal_run(const py::object& entries, const std::string& id, const std::string& purpose,
-                   OptionalNumber payload_mass_kg, OptionalNumber payload_inertia_kg_m2) {
+ModalRun modal_run(const py::object& entries, const py::object& id, const py::object& purpose,
+                   const py::object& payload_mass_kg, const py::object& payload_inertia_kg_m2) {
   ModalRun made{
-      run_of(id, measured::RunKind::modal, purpose, payload_mass_kg, payload_inertia_kg_m2), {}};
+      run_of(measured::RunKind::modal, {id, purpose, payload_mass_kg, payload_inertia_kg_m2}), {}};
   const bool is_frame = py::hasattr(entries, "to_dict");
   const py::object rows = is_frame ? entries.attr("to_dict")("records") : entries;
+  if (!py::isinstance<py::sequence>(rows)) {
+    throw py::type_error("entries: must be a list of ModalEntry or dicts, or a DataFrame");
+  }
   for (const auto& row : rows) {
     const bool is_entry = py::isinstance<ModalEntry>(row);
+    if (!is_entry && !py::isinstance<py::dict>(row)) {
+      throw py::type_error(
+          fmt::format("entries: {}; must be a ModalEntry or a dict of its arguments",
+                      std::string(py::repr(row))));
+    }
     const py::object entry = is_entry
                                  ? py::reinterpret_borrow<py::object>(row)
                                  : py::type::of<ModalEntry>()(**without_nan(row.cast<py::dict>()));
@@ -234,7 +275,7 @@ void add_frequency_run(py::module_& module) {
       .def_property_readonly(
           "units", [](const FrequencyRun& self) { return units_of(sensors_in(self.record)); },
           "Their units; responses are in these per N m.")
-      .def("__getitem__", of_channel(&measured::FrequencyChannel::response), py::arg("sensor"))
+      .def("__getitem__", of_channel(&measured::FrequencyChannel::response))
       .def("frequency_Hz", of_channel(&measured::FrequencyChannel::frequency_Hz), py::arg("sensor"),
            "f of a sensor's response [Hz], read-only array (frequencies,).\n\nArguments:\n"
            "  sensor: its name")
@@ -257,8 +298,7 @@ void add_modal_run(py::module_& module) {
       "  order: number of the flexible pole or zero, from 1 (None: found by the arm file)\n"
       "  frequency_std_Hz: standard deviation of the frequency [Hz]\n"
       "  damping_ratio: -Re s/|s| [1]\n"
-      "  damping_ratio_std: its standard deviation [1]\n\n"
-      "Raises InputError for numbers out of their range.")
+      "  damping_ratio_std: its standard deviation [1]")
       .def(py::init(&modal_entry), py::arg("feature"), py::arg("frequency_Hz") = py::none(),
            py::kw_only(), py::arg("sensor") = py::none(), py::arg("order") = py::none(),
            py::arg("frequency_std_Hz") = py::none(), py::arg("damping_ratio") = py::none(),
@@ -282,7 +322,9 @@ void add_modal_run(py::module_& module) {
   const std::string text =
       "A table of measured poles and zeros.\n\nArguments:\n"
       "  entries: a list of ModalEntry or of dicts of its arguments, or a DataFrame of them\n" +
-      std::string(kRunArguments) + "\nRaises InputError as ModalEntry, and for one given twice.";
+      std::string(kRunArguments) +
+      "\nRaises InputError for a number out of its range, a zero without sensor, and one given "
+      "twice.";
   auto modal = py::class_<ModalRun>(module, "ModalRun", text.c_str());
   add_run_facts(modal)
       .def(py::init(&modal_run), py::arg("entries"), py::kw_only(), py::arg("id") = "run",

@@ -37,7 +37,9 @@ Measurement read_measurement(const std::filesystem::path& path) {
 }
 
 std::vector<AnyRun> runs_in(const py::object& runs) {
-  if (!py::isinstance<py::sequence>(runs)) return {runs.cast<AnyRun>()};
+  const bool is_one = py::isinstance<TimeRun>(runs) || py::isinstance<FrequencyRun>(runs) ||
+                      py::isinstance<ModalRun>(runs);
+  if (is_one) return {runs.cast<AnyRun>()};
   return runs.cast<std::vector<AnyRun>>();
 }
 

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/number.hpp"
 #include "arm/range.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
@@ -231,7 +232,15 @@ std::string format_modal_table(const ModalTable& table) {
 }
 
 void require_valid(const ModalTable& table) {
-  parse_modal_table(format_modal_table(table), "modal table");
+  constexpr std::string_view kName = "entries:";
+  try {
+    parse_modal_table(format_modal_table(table), "entries");
+  } catch (const InputError& error) {
+    const std::string text = error.what();  // "entries:3: ..." of the second entry
+    const std::size_t end = text.find(": ");
+    const auto line = arm::parse_number<int>(text.substr(kName.size(), end - kName.size()));
+    throw InputError(line ? fmt::format("entry {}{}", *line - 1, text.substr(end)) : text);
+  }
 }
 
 void write_modal_table(const ModalTable& table, const std::filesystem::path& path) {

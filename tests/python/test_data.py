@@ -112,7 +112,7 @@ class Runs(unittest.TestCase):
         with_nan = np.where(np.arange(n) == 7, np.nan, 1.0)
         backwards = self.columns["time_s"][::-1]
         for call, part in (
-            (run(hub_angel_rad=np.zeros(n)), "hub_angel_rad: hub_angel: unknown sensor (did you mean"),
+            (run(hub_angel_rad=np.zeros(n)), "hub_angel_rad: sensor hub_angel: unknown (did you mean hub_angle?)"),
             (run(tip_displacement=np.zeros(n)),
              "tip_displacement: no unit in the name; must be tip_displacement_m, "),
             (run(tip_displacement_rad=np.zeros(n)), "tip_displacement_rad: rad is not its unit; must be"),
@@ -176,7 +176,8 @@ class Runs(unittest.TestCase):
         for row, part in (
             ({"feature": "polle", "frequency_Hz": 1.0}, "feature polle: must be pole or zero"),
             ({"feature": "pole", "frequency_Hz": -1.0}, "frequency"),
-            ({"feature": "zero", "frequency_Hz": 1.0}, "sensor"),
+            ({"feature": "zero", "frequency_Hz": 1.0}, "entry 1: sensor: missing"),
+            ({"feature": "pole", "frequncy_Hz": 1.0}, "entries: frequncy_Hz: unknown; must be feature, "),
         ):
             self.assertIn(part, refusal(self, lambda: flexarm.ModalRun([row])))
 
@@ -220,6 +221,10 @@ class Measurements(unittest.TestCase):
             (lambda: flexarm.Measurement(self.arm, []), flexarm.InputError, "runs: none; needs one or more"),
             (lambda: flexarm.Measurement(self.arm, [self.run, again]), flexarm.InputError,
              "runs: two have the id log"),
+            (lambda: flexarm.TimeRun(self.run.to_pandas(), id=3), TypeError, "id = 3: must be text"),
+            (lambda: flexarm.TimeRun(self.run.to_pandas(), payload_mass_kg="x"), TypeError,
+             "payload_mass_kg = 'x': must be a number [kg] or None"),
+            (lambda: flexarm.ModalRun(3), TypeError, "entries: must be a list of ModalEntry"),
             (lambda: flexarm.Measurement(self.arm, [1]), TypeError, "runs: must be a TimeRun"),
             (lambda: flexarm.Measurement(1, self.run), TypeError, "arm: int; must be an Arm or the path"),
             (lambda: flexarm.diagnose(without), flexarm.InputError, "measurement: has no arm"),
@@ -278,7 +283,7 @@ class Imports(unittest.TestCase):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             measurement = flexarm.import_log(
-                self.log, column="torque=u:N m:0.2", reference="note:rad",
+                self.log, column="torque=u:N m:0.2", reference="note:rad/s",
                 controller="kp=1,sensor=hub_velocity")
         said = [str(one.message) for one in caught]
         self.assertTrue(any("hub_velocity" in text for text in said), said)

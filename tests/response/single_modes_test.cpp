@@ -71,7 +71,7 @@ double difference(const arm::Arm& arm, const Excitation& excitation, TorqueHold 
 
 // e^(A dt) in double: epsilon times the phase of the highest mode over a sample, 100 rad, and the
 // samples.
-constexpr double kRoundingOfSteps = 1e-8;
+constexpr double kRoundingOfStates = 1e-8;
 
 TEST(SingleModes, UncoupledOnesAddUpToTheSimulationOfAll) {
   arm::Arm damped = plain();
@@ -81,7 +81,7 @@ TEST(SingleModes, UncoupledOnesAddUpToTheSimulationOfAll) {
     for (const Excitation& excitation :
          {Excitation(BangBang{.pulse_s = 0.1}), Excitation(RandomNoise{}), Excitation(Prbs{})}) {
       for (const TorqueHold hold : {TorqueHold::zero, TorqueHold::first}) {
-        EXPECT_LT(difference(arm, excitation, hold), kRoundingOfSteps) << name(excitation);
+        EXPECT_LT(difference(arm, excitation, hold), kRoundingOfStates) << name(excitation);
       }
     }
   }

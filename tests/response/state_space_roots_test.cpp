@@ -32,7 +32,7 @@ TEST(StateSpaceRoots, PolesAreTheDampedPolesOfTheArm) {
     const auto found = poles(system_of(formulation, damped_arm(), 40));
     // Modes are coupled by damping, so that leaving some out moves the others.
     constexpr double kOmittedModes = 1e-4;
-    for (const auto& pair : damped_poles(made, 3).s_rad_per_s) {
+    for (const auto& pair : damped_poles(made, 3).flexible) {
       for (const Complex s : pair) {
         const double nearest =
             std::abs(*std::ranges::min_element(found, {}, [&](const Complex one) {

@@ -33,7 +33,7 @@ TEST(StateSpaceRoots, PolesAreTheDampedPolesOfTheArm) {
     // Modes are coupled by damping, so that leaving some out moves the others.
     constexpr double kOmittedModes = 1e-4;
     for (const auto& pair : damped_poles(made, 3).flexible) {
-      for (const Complex s : pair) {
+      for (const Complex s : {pair.first_rad_per_s, pair.second_rad_per_s}) {
         const double nearest =
             std::abs(*std::ranges::min_element(found, {}, [&](const Complex one) {
               return std::abs(one - s);

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// The file's name without its extension, as an arm file may have it: bytes that are no text
 /// escaped.
 std::string arm_name(const fs::path& path) {
-  const std::string name = arm_name(path);
+  const std::string name = path.stem().string();
   try {
     measured::parse_arm(starter_text(name), path.string(), {});
   } catch (const arm::InputError&) {
@@ -40,7 +40,7 @@ int write_starter(const fs::path& path, bool force, const std::string& json) {
     throw arm::InputError(
         fmt::format("{}: already exists; --force overwrites it", arm::shown(path.string())));
   }
-  const std::string name = path.stem().string();
+  const std::string name = arm_name(path);
   measured::write_atomically(path, starter_text(name));
   write_json(
       json, report::json_document("flexarm.new/1", {{"file", path.string()},

@@ -1,5 +1,6 @@
 #include "app/arm_choice.hpp"
 #include "app/command.hpp"
+#include "app/file_names.hpp"
 #include "app/json_file.hpp"
 #include "app/kept_inputs.hpp"
 #include "app/list_option.hpp"
@@ -8,10 +9,14 @@
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
+#include "arm/input_error.hpp"
+#include "arm/range.hpp"
 #include "arm/rigid_hub.hpp"
 #include "compare/comparison.hpp"
+#include "compare/measured_verdict.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/figures/comparison_plots.hpp"
+#include "report/figures/figure_files.hpp"
 #include "report/json/comparison_json.hpp"
 #include "report/page/compare_page.hpp"
 #include "report/progress.hpp"
@@ -22,11 +27,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -39,6 +46,7 @@ namespace fs = std::filesystem;
 struct CompareArguments {
   ArmChoice arm;
   std::string measured_file;
+  double measured_tolerance_percent = compare::kMeasuredTolerance_percent;
   std::vector<std::string> sensors;
   compare::Options options;
   bool quick = false;
@@ -83,12 +91,18 @@ std::vector<compare::Comparison> compare_with_progress(const std::vector<arm::Ar
 /// What was measured beside the models, and how far off it is.
 std::string measured_text(const compare::Comparison& comparison,
                           const compare::MeasuredComparison& measured) {
-  std::string text = screen_table(report::measured_table(measured.rows, comparison.subjects), 3) +
+  std::string text = screen_table(report::measured_runs_table(measured.runs)) +
+                     screen_table(report::measured_table(measured.rows, comparison.subjects), 3) +
                      screen_table(report::measured_damping_table(measured.rows), 2);
   const std::string summary = report::measured_summary(measured.rows);
   if (!summary.empty()) text += screen_paragraph(summary) + "\n";
   text += screen_table(report::measured_response_table(measured.responses), 2);
   for (const auto& shapes : measured.shapes) text += screen_table(report::mac_table(shapes));
+  if (!measured.runs_left_out.empty()) {
+    text += screen_note(fmt::format("of another payload than this arm, and not compared: {}",
+                                    fmt::join(measured.runs_left_out, ", "))) +
+            "\n";
+  }
   return text;
 }
 
@@ -111,19 +125,28 @@ std::string details_text(const compare::Comparison& comparison, bool full) {
          screen_table(report::responses_table(comparison));
 }
 
-std::string verdict_paragraph(const compare::Comparison& comparison) {
-  const std::string text = screen_paragraph(report::verdict_line(comparison));
-  return comparison.verdict.agree ? toned(text, "agree", Tone::good)
-                                  : toned(text, "DISAGREE", Tone::bad);
+/// The verdict on the measurement, where there is one, before that on the formulations.
+std::string verdict_paragraphs(const compare::Comparison& comparison,
+                               const compare::MeasuredVerdict& measured) {
+  const bool is_measured = measured.agreement != compare::MeasuredAgreement::none;
+  const std::string formulations = screen_paragraph(report::verdict_line(comparison, is_measured));
+  const std::string text = comparison.verdict.agree ? toned(formulations, "agree", Tone::good)
+                                                    : toned(formulations, "DISAGREE", Tone::bad);
+  if (!is_measured) return text;
+  const std::string first = screen_paragraph(report::measured_verdict_line(measured));
+  const bool agrees = measured.agreement == compare::MeasuredAgreement::agrees;
+  return (agrees ? toned(first, "agrees", Tone::good) : toned(first, "DIFFERS", Tone::bad)) + text;
 }
 
 std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comparison,
                             const compare::MeasuredComparison& measured,
                             const CompareArguments& arguments) {
-  std::string text = verdict_paragraph(comparison) + "\n";
+  std::string text = verdict_paragraphs(comparison, compare::judge(measured)) + "\n";
   text += screen_rows(report::disagreements_table(comparison), kScreenRows, "--verbose");
-  text += describe(comparison.arm) + left_out_of_roots(arm) + "\n";
+  const bool has_models = !comparison.subjects.empty();
+  text += describe(comparison.arm) + (has_models ? left_out_of_roots(arm) : "") + "\n";
   text += measured_text(comparison, measured);
+  if (!has_models) return text;
   if (!arguments.verbose) {
     text += screen_rows(report::roots_overview(comparison), kScreenRows, "--verbose");
   }
@@ -132,53 +155,125 @@ std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comp
 }
 
 FolderKind comparison_folder_kind() {
-  return {"a comparison", {"roots.csv"}, {".csv", ".svg", ".pdf", ".png", ".json", ".html"}, true};
+  return {"a comparison",
+          {"roots.csv", "measured-runs.csv"},
+          {".csv", ".svg", ".pdf", ".png", ".json", ".html"},
+          true};
 }
 
-/// The files of one arm, in `folder` of the output folder.
-void add_files(const fs::path& folder, const compare::Comparison& comparison,
-               const compare::MeasuredComparison& measured, const FigureChoice& figures,
-               std::vector<measured::NamedContent>& files) {
-  const auto write_csv = [&](const char* name, const report::Table& table) {
-    files.push_back({folder / name, report::to_csv(table)});
+/// The files of one arm.
+std::vector<measured::NamedContent> files_of(const compare::Comparison& comparison,
+                                             const compare::MeasuredComparison& measured,
+                                             const FigureChoice& figures) {
+  std::vector<measured::NamedContent> files;
+  const auto write_csv = [&](const std::string& name, const report::Table& table) {
+    add_file(name + ".csv", report::to_csv(table), files);
   };
-  write_csv("roots.csv", report::root_listing(comparison));
-  write_csv("shapes.csv", report::shapes_listing(comparison));
-  write_csv("responses.csv", report::responses_listing(comparison));
+  if (!comparison.subjects.empty()) {
+    write_csv("roots", report::root_listing(comparison));
+    write_csv("shapes", report::shapes_listing(comparison));
+    write_csv("responses", report::responses_listing(comparison));
+  }
   if (!measured.rows.empty()) {
-    write_csv("measured.csv", report::measured_table(measured.rows, comparison.subjects));
+    write_csv("measured", report::measured_table(measured.rows, comparison.subjects));
+  }
+  if (!measured.runs.empty()) {
+    write_csv("measured-runs", report::measured_runs_table(measured.runs));
+    for (const auto& run : measured.runs) {
+      write_csv("overlay-" + run.run, report::measured_run_listing(run));
+    }
   }
   const auto damping = report::measured_damping_table(measured.rows);
-  if (!damping.rows.empty()) write_csv("measured-damping.csv", damping);
+  if (!damping.rows.empty()) write_csv("measured-damping", damping);
   if (!measured.responses.empty()) {
-    write_csv("measured-responses.csv", report::measured_response_table(measured.responses));
+    write_csv("measured-responses", report::measured_response_table(measured.responses));
   }
-  if (!measured.shapes.empty()) write_csv("mac.csv", report::mac_listing(measured.shapes));
+  if (!measured.shapes.empty()) write_csv("mac", report::mac_listing(measured.shapes));
   if (!comparison.refinements.empty()) {
-    write_csv("convergence.csv", report::convergence_listing(comparison));
-    write_csv("refinement.csv", report::refinement_listing(comparison));
+    write_csv("convergence", report::convergence_listing(comparison));
+    write_csv("refinement", report::refinement_listing(comparison));
   }
-  figures.add_to(files, folder, report::comparison_plots(comparison, measured));
+  const auto plots = report::comparison_plots(comparison, measured);
+  for (auto& [name, content] : report::figure_files(plots, figures.options())) {
+    add_file(name, std::move(content), files);
+  }
+  return files;
 }
 
-std::string next_step(const CompareArguments& arguments) {
+std::string next_step(const CompareArguments& arguments, bool is_measurement_far) {
   const std::string arm = arguments.arm.file.empty() ? "" : " " + arguments.arm.file;
-  if (arguments.output.folder.empty()) {
-    return fmt::format(
-        "{}next: write plots and tables with  flexarm compare{} --out compared\n",
-        details_line(arguments.verbose,
-                     "roots of each formulation, convergence, mode shapes, responses"),
-        arm);
+  std::string lines = arguments.output.folder.empty()
+                          ? details_line(arguments.verbose,
+                                         "roots of each formulation, convergence, mode shapes, "
+                                         "responses")
+                          : fmt::format("wrote {}\n", arguments.output.folder);
+  if (is_measurement_far && fs::path(arguments.measured_file).extension() == ".toml") {
+    lines += fmt::format("next: what does the simulation lack?  flexarm diagnose {}\n",
+                         arguments.measured_file);
+  } else if (arguments.output.folder.empty()) {
+    const std::string measured =
+        arguments.measured_file.empty() ? "" : " --measured " + arguments.measured_file;
+    lines += fmt::format("next: write plots and tables with  flexarm compare{}{} --out compared\n",
+                         arm, measured);
+  } else {
+    lines += fmt::format("next: the modes of this arm with  flexarm modes{}\n", arm);
   }
-  return fmt::format("wrote {}\nnext: the modes of this arm with  flexarm modes{}\n",
-                     arguments.output.folder, arm);
+  return lines;
 }
 
-std::string summary_of_arms(std::size_t count, std::size_t disagreeing) {
-  return disagreeing == 0
-             ? toned(fmt::format("All {} arms: agree.\n\n", count), "agree", Tone::good)
-             : toned(fmt::format("{} of {} arms: DISAGREE.\n\n", disagreeing, count), "DISAGREE",
-                     Tone::bad);
+/// Of several arms: how many the measurement agrees with, and of how many the formulations agree.
+std::string summary_of_arms(const std::vector<report::ComparedArm>& arms) {
+  std::size_t disagreeing = 0;
+  std::size_t measured = 0;
+  std::size_t differing = 0;
+  for (const auto& arm : arms) {
+    const auto agreement = compare::judge(arm.measured).agreement;
+    disagreeing += arm.comparison.verdict.agree ? 0U : 1U;
+    measured += agreement == compare::MeasuredAgreement::none ? 0U : 1U;
+    differing += agreement == compare::MeasuredAgreement::differs ? 1U : 0U;
+  }
+  std::string text =
+      disagreeing == 0
+          ? toned(fmt::format("All {} arms: agree.\n\n", arms.size()), "agree", Tone::good)
+          : toned(fmt::format("{} of {} arms: DISAGREE.\n\n", disagreeing, arms.size()), "DISAGREE",
+                  Tone::bad);
+  if (measured == 0) return text;
+  const std::string first =
+      differing == 0
+          ? toned(fmt::format("Measurement: agrees with {} arms.\n", measured), "agrees",
+                  Tone::good)
+          : toned(fmt::format("Measurement: DIFFERS from {} of {} arms.\n", differing, measured),
+                  "DIFFERS", Tone::bad);
+  return first + "Formulations, " + text;
+}
+
+/// Takes the arm of the measurement where no other is named; else a note says that they differ.
+std::string choose_arm(const MeasuredFile& measured, ArmChoice& arm) {
+  if (measured.arm_file.empty()) return "";
+  if (arm.file.empty()) {
+    arm.file = measured.arm_file.string();
+    return "";
+  }
+  std::error_code unreadable;
+  if (fs::equivalent(arm.file, measured.arm_file, unreadable)) return "";
+  return screen_note(fmt::format("the measurement names the arm {}; compared with {}",
+                                 arm::shown(measured.arm_file.string()), arm::shown(arm.file))) +
+         "\n";
+}
+
+/// The measurement beside each arm, with a line of progress over the simulated runs.
+std::vector<compare::MeasuredComparison> measured_with_progress(
+    const MeasuredFile& measured, const std::vector<arm::Arm>& arms,
+    const std::vector<compare::Comparison>& comparisons, double tolerance_percent) {
+  report::Progress progress("comparing the measurement",
+                            std::ssize(arms) * std::ssize(measured.runs));
+  std::vector<compare::MeasuredComparison> beside;
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    beside.push_back(beside_models(measured, arms[i], comparisons[i], arms.size() == 1,
+                                   [&] { progress.advance(); }));
+    beside.back().tolerance_percent = tolerance_percent;
+  }
+  return beside;
 }
 
 int run_compare(CompareArguments arguments) {
@@ -187,9 +282,14 @@ int run_compare(CompareArguments arguments) {
   const auto measured = arguments.measured_file.empty()
                             ? MeasuredFile{}
                             : read_measured_file(arguments.measured_file);
+  arm::require_in_range("measured_tolerance", arguments.measured_tolerance_percent, "%",
+                        arm::kNotNegative);
   const auto options = options_of(arguments, measured);
+  const std::string note = choose_arm(measured, arguments.arm);
   const auto arms = arguments.arm.arms();
-  for (const auto& arm : arms) arm::require_beam(arm, "compare");
+  for (const auto& arm : arms) {
+    if (!measured.is_in_time()) arm::require_beam(arm, "compare");
+  }
   for (const auto& [option, output] : {std::pair{"--json", &arguments.output.json_file},
                                        std::pair{"--out", &arguments.output.folder}}) {
     if (!output->empty()) require_no_input(option, *output, measured.files);
@@ -198,32 +298,35 @@ int run_compare(CompareArguments arguments) {
   arguments.report.prepare(arguments.output.folder);
 
   std::string text;  // printed last: a reader that goes away costs no file
-  std::size_t disagreeing = 0;
+  bool do_formulations_agree = true;
+  bool is_measurement_far = false;
   std::vector<report::ComparedArm> results;
   std::vector<measured::NamedContent> files;
   const auto comparisons = compare_with_progress(arms, options);
+  auto beside =
+      measured_with_progress(measured, arms, comparisons, arguments.measured_tolerance_percent);
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    const auto& arm = arms[i];
-    const auto& comparison = comparisons[i];
-    auto beside = beside_models(measured, arm, comparison);
-    text += comparison_text(arm, comparison, beside, arguments);
+    text += comparison_text(arms[i], comparisons[i], beside[i], arguments);
     if (!arguments.output.folder.empty()) {
-      add_files(folder_of("", arm, arms.size()), comparison, beside, arguments.output.figures,
-                files);
+      const fs::path folder = folder_of("", arms[i], arms.size());
+      for (auto& [name, content] : files_of(comparisons[i], beside[i], arguments.output.figures)) {
+        files.push_back({folder / name, std::move(content)});
+      }
     }
-    if (!comparison.verdict.agree) ++disagreeing;
-    results.push_back({comparison, std::move(beside)});
+    do_formulations_agree = do_formulations_agree && comparisons[i].verdict.agree;
+    is_measurement_far = is_measurement_far ||
+                         compare::judge(beside[i]).agreement == compare::MeasuredAgreement::differs;
+    results.push_back({comparisons[i], std::move(beside[i])});
   }
   if (!files.empty()) write_folder(arguments.output.folder, arguments.output.force, files);
   write_json(arguments.output.json_file, report::comparison_json(results));
-  for (const auto& note : measured.notes) text += screen_note(note) + "\n";
   if (arguments.report.is_given()) {
     arguments.report.write(
         report::page::compare_page(results, page_origin(subject_of(arguments.arm))));
   }
-  if (arms.size() > 1) text = summary_of_arms(arms.size(), disagreeing) + text;
-  print(text + next_step(arguments) + arguments.report.last_line());
-  return disagreeing == 0 ? kSuccess : kFailure;
+  if (arms.size() > 1) text = summary_of_arms(results) + text;
+  print(text + note + next_step(arguments, is_measurement_far) + arguments.report.last_line());
+  return do_formulations_agree && !is_measurement_far ? kSuccess : kFailure;
 }
 
 }  // namespace
@@ -232,13 +335,18 @@ Command add_compare(CLI::App& program) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser = program.add_subcommand(
       "compare",
-      "Compare poles, zeros, mode shapes and frequency responses of the three formulations");
+      "Compare the three formulations, and measured data with them: poles, zeros, shapes, "
+      "responses, time runs");
   add_arm_choice(*parser, arguments->arm);
   parser
       ->add_option("--measured", arguments->measured_file,
                    "Measurement beside the models: modal table or frequency responses (CSV), or "
-                   "measurement.toml with modal and frf runs")
+                   "measurement.toml, whose time runs are simulated; without ARM its own arm")
       ->check(not_empty());
+  parser
+      ->add_option("--measured-tolerance", arguments->measured_tolerance_percent,
+                   "Largest difference from a measurement without standard deviations [%]")
+      ->capture_default_str();
   add_list_option(*parser, "--sensor", arguments->sensors, "Additional sensors, e.g. strain@0.05");
   parser->add_option("--poles", arguments->options.poles, "Number of poles and hub zeros")
       ->capture_default_str();
@@ -261,8 +369,10 @@ Command add_compare(CLI::App& program) {
                    "As --verbose, with the convergence of every root and the root counts");
   add_output_choice(*parser, arguments->output, {"Folder for CSV tables and figures"});
   add_report_choice(*parser, arguments->report);
-  parser->footer("Exit status: 0 the formulations agree; 1 they do not; 2 unusable input.\n" +
-                 example("flexarm compare rig.toml --poles 6 --out compared"));
+  parser->footer(
+      "Exit status: 0 the formulations agree, and the measurement with the model; 1 they do not; 2 "
+      "unusable input.\n" +
+      example("flexarm compare rig.toml --poles 6 --out compared"));
   return {parser, [arguments] { return run_compare(*arguments); }};
 }
 

@@ -92,7 +92,7 @@ std::string zsh_action(const OptionValues& values, bool is_list) {
 std::string zsh_argument(const OptionDescription& option) {
   const std::string action = zsh_action(values_of(option), option.is_list);
   if (option.is_positional) return fmt::format("'*:{}:{}'", option.names.back(), action);
-  return fmt::format("'{}{}[{}]{}'", option.is_list ? "*" : "", option.names.back(),
+  return fmt::format("'{}{}[{}]{}'", option.is_repeatable ? "*" : "", option.names.back(),
                      zsh_quoted(first_statement(option.text)),
                      option.value.empty() ? "" : ":value:" + action);
 }

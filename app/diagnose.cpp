@@ -239,7 +239,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
   const auto begun = std::chrono::steady_clock::now();
   const diagnose::Deadline deadline = diagnose::deadline_of(arguments.request, begun);
   const diagnose::Experiment experiment =
-      diagnose::read_experiment(arguments.file, arguments.request);
+      diagnose::experiment_of(compare::read_recording(arguments.file), arguments.request, deadline);
   prepare(arguments, experiment);
   const diagnose::Diagnosis diagnosis = diagnose_with_progress(arguments, experiment, deadline);
   std::string text = text_of(diagnosis, arguments.verbose);

@@ -2,19 +2,24 @@
 #include "app/exported_arm.hpp"
 #include "app/exported_files.hpp"
 #include "app/option_values.hpp"
+#include "app/screen.hpp"
 #include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
+#include "experiment/run_choice.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
 #include "report/tables/text_table.hpp"
+#include "report/tables/truncation_text.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -32,6 +37,9 @@ namespace fs = std::filesystem;
 constexpr int kMostSamples = 100'000;
 /// The matrices of a step take 0.1 GB each then, and their exponential minutes.
 constexpr int kMostModes = 2000;
+/// An FMU is stepped in real time, and its matrices are made again for each communication step that
+/// is new.
+constexpr int kMostChosenFmuModes = 40;
 
 struct ExportArguments {
   std::string file;
@@ -43,7 +51,7 @@ struct ExportArguments {
   std::optional<std::uint64_t> seed;
   bool modes_alone = false;
   std::string formulation = "exact_tf";
-  int modes = 5;
+  std::optional<int> modes;
   bool static_correction = false;
   std::vector<std::string> sensors;
   std::optional<double> period_s;
@@ -76,8 +84,8 @@ void prepare(const ExportArguments& arguments) {
   if (arguments.period_s) {
     arm::require_in_range("--period", *arguments.period_s, "s", arm::kPositive);
   }
-  if (arguments.modes < 1 || arguments.modes > kMostModes) {
-    throw arm::out_of_range("--modes", arguments.modes, "", fmt::format("1 to {}", kMostModes));
+  if (const int modes = arguments.modes.value_or(1); modes < 1 || modes > kMostModes) {
+    throw arm::out_of_range("--modes", modes, "", fmt::format("1 to {}", kMostModes));
   }
   if (const int samples = arguments.samples.value_or(0); samples < 0 || samples > kMostSamples) {
     throw arm::out_of_range("--samples", samples, "", fmt::format("0 to {}", kMostSamples));
@@ -100,6 +108,21 @@ std::vector<arm::Sensor> sensors_of(const ExportArguments& arguments, const arm:
   return made;
 }
 
+/// Truncation of an FMU, whose torque is not known: as of `flexarm simulate` by its default
+/// excitation.
+response::Truncation fmu_truncation(const arm::Arm& arm, const fmu::FmuSettings& settings,
+                                    std::optional<int> modes) {
+  const auto samples = static_cast<std::size_t>(
+      std::max(std::round(experiment::kDefaultDuration_s / settings.sample_time_s), 2.0));
+  response::BangBang pulses;
+  pulses.pulse_s = std::max(pulses.pulse_s, settings.sample_time_s);
+  const auto torque =
+      sample(pulses, {std::min(samples, response::kMostJudgedSamples), settings.sample_time_s});
+  return response::truncation_in_time(
+      arm, settings.sensors, torque.torque_N_m, settings.sample_time_s, response::TorqueHold::zero,
+      {modes, std::min(kMostChosenFmuModes, response::most_chosen_modes(settings.formulation))});
+}
+
 std::string export_fmu(const ExportArguments& arguments, const ExportedArm& exported,
                        nlohmann::ordered_json& json) {
   const fs::path file = fmu_file(arguments);
@@ -107,17 +130,20 @@ std::string export_fmu(const ExportArguments& arguments, const ExportedArm& expo
   const int fmi = arguments.fmi.value_or(2);
   fmu::FmuRequest request{.arm = exported.arm,
                           .settings = {.formulation = arguments.formulation,
-                                       .modes = arguments.modes,
                                        .static_correction = arguments.static_correction,
                                        .sensors = sensors_of(arguments, exported.arm)},
                           .version = fmi == 2 ? fmu::FmiVersion::v2 : fmu::FmiVersion::v3,
                           .model_identifier = fmu::identifier_of(file.stem().string()),
                           .standard_deviations = exported.standard_deviations()};
   if (arguments.period_s) request.settings.sample_time_s = *arguments.period_s;
+  const auto truncation = fmu_truncation(exported.arm, request.settings, arguments.modes);
+  request.settings.modes = truncation.modes;
   const fmu::Fmu made = fmu::make_fmu(request);
   measured::write_atomically(file, made.archive);
   json = fmu_json(made.description, fmi, file.string());
+  json["truncation"] = report::truncation_json(truncation, request.settings.sensors);
   return report::to_text(fmu_table(made.description)) +
+         screen_paragraph(report::truncation_sentence(truncation, request.settings.sensors)) +
          fmt::format("\nwrote {}: FMI {}.0 for co-simulation, inner step {} s, {:.1f} MB\n",
                      file.string(), fmi, request.settings.sample_time_s,
                      static_cast<double>(made.archive.size()) * 1e-6);
@@ -133,10 +159,19 @@ std::string export_state_space(const ExportArguments& arguments, const ExportedA
                                         arguments.seed.value_or(1));
   write_samples(made, arguments.state_space_file);
   json = samples_summary_json(made, arguments.state_space_file);
+  const auto& truncation = made.state_space.truncation;
+  json["truncation"] = report::truncation_json(truncation, settings.sensors);
   return samples_text(made) +
+         screen_paragraph(report::truncation_sentence(truncation, settings.sensors)) +
          fmt::format("wrote {}: {} states, {} sensors, the nominal arm and {} samples\n",
                      arguments.state_space_file, made.state_space.states.size(),
                      settings.sensors.size(), made.samples.samples.size() - 1);
+}
+
+/// The number of flexible modes of the state space, or of the FMU where there is none.
+nlohmann::ordered_json modes_of(const nlohmann::ordered_json& fmu,
+                                const nlohmann::ordered_json& state_space) {
+  return (state_space.is_null() ? fmu : state_space)["truncation"]["modes"];
 }
 
 int run_export(const ExportArguments& arguments) {
@@ -154,7 +189,7 @@ int run_export(const ExportArguments& arguments) {
         arguments.json_file,
         report::json_document("flexarm.export/1", {{"arm", report::arm_json(exported.arm)},
                                                    {"model", arguments.formulation},
-                                                   {"modes", arguments.modes},
+                                                   {"modes", modes_of(fmu, state_space)},
                                                    {"fmu", std::move(fmu)},
                                                    {"state_space", std::move(state_space)}}));
   }
@@ -205,8 +240,11 @@ Command add_export(CLI::App& program) {
                    "State space without static correction for omitted modes");
   parser->add_option("--formulation", arguments->formulation, "exact_tf, fem or assumed_modes")
       ->capture_default_str();
-  parser->add_option("--modes", arguments->modes, "Number of flexible modes")
-      ->capture_default_str();
+  parser->add_option(
+      "--modes", arguments->modes,
+      "Number of flexible modes; default: as many as keep the truncation error of "
+      "each sensor below 1e-4 (FMU: under the default torque of flexarm simulate, 40 "
+      "at most; state space: to above the fifth pole, 160 at most)");
   parser
       ->add_option("--sensor", arguments->sensors,
                    "Outputs, comma-separated; default: hub_angle, hub_velocity and, with a beam, "

@@ -57,44 +57,10 @@ std::string paragraph(std::string_view text) {
   return lines;
 }
 
-/// "FILE", "NUMBER,..."; empty for a flag.
-std::string value_name(const OptionDescription& option) {
-  if (option.value.empty()) return "";
-  std::string name = "TEXT";
-  if (option.value == "FLOAT") name = "NUMBER";
-  if (option.value == "INT" || option.value == "UINT") name = "N";
-  switch (values_of(option).kind) {
-    case OptionValues::Kind::file:
-      name = "FILE";
-      break;
-    case OptionValues::Kind::folder:
-      name = "FOLDER";
-      break;
-    case OptionValues::Kind::words:
-      name = "NAME";
-      break;
-    default:
-      break;
-  }
-  // What is stated in the command line, although a file may state it as well.
-  for (const char* form : {"KEY=VALUE", "NAME:UNIT", "Expression"}) {
-    if (option.text.find(form) != std::string::npos) name = "TEXT";
-  }
-  return name + (option.is_list ? ",..." : "");
-}
-
-/// The text with the default behind it, where the text does not say it.
-std::string text_of(const OptionDescription& option) {
-  std::string value = option.default_value;
-  if (value.starts_with('[') && value.ends_with(']')) value = value.substr(1, value.size() - 2);
-  if (value.empty() || option.text.find("efault") != std::string::npos) return option.text;
-  return fmt::format("{} [default: {}]", option.text, value);
-}
-
 std::string option_line(const OptionDescription& option) {
   std::string head = fmt::format("  {}", fmt::join(option.names, ", "));
   if (!option.is_positional && !option.value.empty()) head += " " + value_name(option);
-  return hanging(head, text_of(option), kTextColumn);
+  return hanging(head, text_with_default(option), kTextColumn);
 }
 
 std::string usage(const CommandDescription& command, bool is_program) {
@@ -102,7 +68,7 @@ std::string usage(const CommandDescription& command, bool is_program) {
       is_program ? "flexarm COMMAND [OPTIONS]" : fmt::format("flexarm {} [OPTIONS]", command.name);
   for (const auto& option : command.options) {
     if (!option.is_positional) continue;
-    const std::string name = option.names.front() + (option.is_list ? "..." : "");
+    const std::string name = option.names.front() + (option.is_repeatable ? "..." : "");
     line += option.is_required ? " " + name : fmt::format(" [{}]", name);
   }
   return fmt::format("Usage: {}\n", line);

@@ -83,7 +83,7 @@ std::vector<measured::NamedContent> identified_files(
     for (const std::size_t f : condition.fits) {
       const auto& fit = identification.fits[f];
       add_table(fmt::format("gains-{}.csv", report::joined(report::ids_of(fit, identification))),
-                report::gain_table(fit, condition.analytical));
+                report::gain_table(fit, condition));
     }
   }
   return files;

@@ -19,12 +19,15 @@
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/identified_overview.hpp"
 #include "report/tables/identified_root_tables.hpp"
+#include "report/tables/method_differences.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,7 +61,7 @@ measured::Identification identify_with_progress(const std::string& file,
 }
 
 std::string fit_text(const measured::RunsFit& fit, const measured::Identification& identification,
-                     const compare::AnalyticalModes& analytical) {
+                     const compare::IdentifiedCondition& condition) {
   if (!fit.refusal.empty()) return "";
   const auto modes = std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode);
   const auto others = std::ssize(fit.fit.poles) - modes;
@@ -66,7 +69,8 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
       fmt::format("Modal fit of {}{}, {:.4g} to {:.4g} Hz: {} mode{}, {} other second-order "
                   "section{}; {}{}",
                   report::joined(report::ids_of(fit, identification)),
-                  fit.hub_held       ? ", responses to the hub motion"
+                  fit.fit.free_decay ? ", free decay"
+                  : fit.hub_held     ? ", responses to the hub motion"
                   : fit.of_responses ? ", estimated responses"
                                      : "",
                   fit.fit.band.from_Hz, fit.fit.band.to_Hz, modes, modes == 1 ? "" : "s", others,
@@ -85,7 +89,7 @@ std::string fit_text(const measured::RunsFit& fit, const measured::Identificatio
         2);
   }
   text += "\n" + screen_table(report::residual_table(fit));
-  return text + screen_table(report::gain_table(fit, analytical), 4);
+  return text + screen_table(report::gain_table(fit, condition), 4);
 }
 
 /// Empty where there is one payload.
@@ -115,16 +119,21 @@ std::string details_text(const measured::Identification& identification,
       }
     }
     for (const std::size_t f : condition.fits) {
-      text += fit_text(identification.fits[f], identification, condition.analytical);
+      text += fit_text(identification.fits[f], identification, condition);
     }
   }
   return text;
 }
 
-/// The roots, each by its best method, and what the data or the estimates fall short of.
+/// The doubts about the fits, the roots, each by its best method, and notes on data and estimates.
 std::string results_text(const measured::Identification& identification,
                          const std::vector<compare::IdentifiedCondition>& conditions) {
   std::string text;
+  for (const auto& doubt : report::doubts(identification)) {
+    text += screen_paragraph("Doubtful: " + doubt, 2);
+  }
+  if (!text.empty()) text += "\n";
+  const std::size_t doubts_end = text.size();
   for (const auto& condition : conditions) {
     text += payload_heading(condition, conditions.size());
     for (const auto& runs : report::sources(identification, condition)) {
@@ -134,11 +143,13 @@ std::string results_text(const measured::Identification& identification,
       text += screen_table(report::real_zero_table(data));
     }
   }
-  if (text.empty()) text = "No pole or zero was identified.\n\n";
+  if (text.size() == doubts_end) text += "No pole or zero was identified.\n\n";
   for (const auto& run : identification.runs) {
     text += screen_table(report::distortion_table(run));
   }
-  const auto notes = report::data_notes(identification);
+  auto notes = report::data_notes(identification);
+  std::ranges::move(report::all_method_differences(identification, conditions),
+                    std::back_inserter(notes));
   for (const auto& note : notes) text += screen_note(note);
   return notes.empty() ? text : text + "\n";
 }
@@ -152,7 +163,7 @@ void prepare(const IdentifyArguments& arguments, const measured::Measurement& me
 }
 
 void write_files(const IdentifyArguments& arguments, const std::string& measurement,
-                 const arm::Arm& arm, const measured::Identification& identification,
+                 const std::optional<arm::Arm>& arm, const measured::Identification& identification,
                  const std::vector<compare::IdentifiedCondition>& conditions) {
   if (arguments.output.folder.empty() && arguments.output.json_file.empty()) return;
   const std::string json =
@@ -177,7 +188,14 @@ int run_identify(const IdentifyArguments& arguments) {
       identify_with_progress(arguments.file, std::move(task.runs), task.options);
   const auto conditions = compare::conditions_of(identification, task.arm);
   std::string text = results_text(identification, conditions);
-  text += describe(task.arm) + left_out_of_roots(task.arm) + "\n";
+  text += task.arm ? describe(*task.arm) + left_out_of_roots(*task.arm)
+                   : screen_note(fmt::format(
+                         "{}: poles and zeros are counted from 1 up, and nothing "
+                         "is compared with a prediction",
+                         task.measurement.arm.empty()
+                             ? "the measurement states no arm"
+                             : "no number is filled in in " + arm::shown(task.measurement.arm)));
+  text += "\n";
   if (arguments.verbose) text += details_text(identification, conditions);
   try {
     write_files(arguments, task.measurement.name, task.arm, identification, conditions);

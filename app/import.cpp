@@ -1,16 +1,14 @@
 #include "app/command.hpp"
 #include "app/folder_place.hpp"
+#include "app/import_options.hpp"
 #include "app/import_report.hpp"
-#include "app/import_runs.hpp"
-#include "app/imported_file.hpp"
 #include "app/json_file.hpp"
 #include "app/record_format.hpp"
-#include "app/run_choice.hpp"
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
 #include "arm/input_error.hpp"
-#include "arm/read_word.hpp"
 #include "effects/registry/vocabulary.hpp"
+#include "importing/import_request.hpp"
 #include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/text_file.hpp"
@@ -20,17 +18,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace flexarm::app {
@@ -40,11 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ImportArguments {
-  std::vector<std::string> files;
-  FileChoice file;
-  std::string kind;
-  std::string controller;
-  RunsChoice runs;
+  importing::ImportRequest request;
   std::string arm_file;
   std::string folder;
   std::string name;
@@ -63,7 +52,6 @@ std::string arm_text(const ImportArguments& arguments) {
 }
 
 void require_consistent(const ImportArguments& arguments) {
-  require_valid(arguments.runs, arguments.files.size());
   if (arguments.record_file.empty() && !arguments.record_format.empty()) {
     throw arm::InputError("--to: needs --save-as");
   }
@@ -75,8 +63,8 @@ void require_consistent(const ImportArguments& arguments) {
   }
 }
 
-void write_measurement(const ImportArguments& arguments, const std::vector<ImportedRun>& runs,
-                       const std::string& arm) {
+void write_measurement(const ImportArguments& arguments,
+                       const std::vector<importing::ImportedRun>& runs, const std::string& arm) {
   measured::Measurement measurement{arguments.name, "arm.toml", {}};
   if (measurement.name.empty() && runs.size() == 1) measurement.name = runs.front().run.id;
   if (measurement.name.empty()) {
@@ -85,80 +73,51 @@ void write_measurement(const ImportArguments& arguments, const std::vector<Impor
   std::vector<measured::NamedContent> contents;
   for (const auto& run : runs) {
     measurement.runs.push_back(run.run);
-    contents.push_back({run.run.file, csv_text(run.data)});
+    contents.push_back({run.run.file, measured::format_run_data(run.data)});
   }
   contents.push_back({"arm.toml", arm});
   contents.push_back({"measurement.toml", measured::format_measurement(measurement)});
   write_folder(arguments.folder, arguments.force, contents);
 }
 
-void print_next(const ImportArguments& arguments, const std::vector<ImportedRun>& runs) {
+void print_next(const ImportArguments& arguments, const std::vector<importing::ImportedRun>& runs) {
   if (!arguments.record_file.empty()) {
     print(fmt::format("wrote {}\n", arm::shown(arguments.record_file)));
   }
   if (arguments.folder.empty()) {
     print(fmt::format("next: write it as a measurement with  flexarm import {} --out measured\n",
-                      arm::shown(fmt::format("{}", fmt::join(arguments.files, " ")), 400)));
+                      arm::shown(fmt::format("{}", fmt::join(arguments.request.files, " ")), 400)));
     return;
   }
   std::vector<std::string> names;
   for (const auto& run : runs) names.push_back(run.run.file);
   const bool has_arm = !arguments.arm_file.empty();
-  print(fmt::format("wrote {0}: measurement.toml, arm.toml{1} and {2}\nnext: {3}\n",
-                    arguments.folder, has_arm ? "" : " (its numbers are to be filled in)",
-                    fmt::join(names, ", "),
-                    has_arm ? fmt::format("compare simulation and measurement with  flexarm "
-                                          "diagnose {}/measurement.toml",
-                                          arguments.folder)
-                            : fmt::format("fill in the arm file, then  flexarm modes {}/arm.toml",
-                                          arguments.folder)));
+  print(fmt::format(
+      "wrote {0}: measurement.toml, arm.toml{1} and {2}\nnext: {3}\n", arguments.folder,
+      has_arm ? "" : " (its numbers are to be filled in)", fmt::join(names, ", "),
+      has_arm ? fmt::format("compare simulation and measurement with  flexarm "
+                            "diagnose {}/measurement.toml",
+                            arguments.folder)
+              : fmt::format("poles with  flexarm identify {0}/measurement.toml ; for all "
+                            "else fill in {0}/arm.toml",
+                            arguments.folder)));
 }
 
-/// The controller that made the torque. Throws InputError for one without a reference, and the
-/// other way round.
-std::optional<arm::Controller> controller_of(const ImportArguments& arguments) {
-  const std::string reference = arguments.file.columns.reference_option();
-  if (arguments.controller.empty() && reference.empty()) return std::nullopt;
-  if (arguments.controller.empty()) {
-    throw arm::InputError(
-        fmt::format("{}: needs --controller, as in --controller kp=2.5,kd=0.1", reference));
-  }
-  if (reference.empty()) {
-    throw arm::InputError("--controller: needs the column with its reference, --reference COLUMN");
-  }
-  return experiment::read_controller(arguments.controller, "--controller");
-}
-
-int run_import(const ImportArguments& typed) {
-  ImportArguments arguments = typed;
-  arguments.runs.controller = controller_of(arguments);
-  FileChoice choice = arguments.file;
-  choice.controller = arguments.runs.controller;
-  if (!arguments.kind.empty()) {
-    choice.kind = arm::read_word(
-        "--kind", arguments.kind,
-        std::array{measured::RunKind::time, measured::RunKind::frf, measured::RunKind::modal});
-  }
+int run_import(const ImportArguments& arguments) {
+  const auto& request = arguments.request;
+  importing::require_valid(request);
   std::optional<RecordFormat> format;
   if (!arguments.record_file.empty()) {
     format = record_format(arguments.record_file, arguments.record_format);
   }
   require_consistent(arguments);
   const std::string arm = arm_text(arguments);
-
-  std::vector<ImportedFile> files;
-  std::vector<ImportedRun> runs;
-  std::set<std::string> ids;
-  {
-    report::Progress progress("reading files", static_cast<std::int64_t>(arguments.files.size()));
-    for (const auto& file : arguments.files) {
-      files.push_back(import_file(file, choice));
-      auto more = runs_of(files.back(), arguments.runs, ids);
-      std::ranges::move(more, std::back_inserter(runs));
-      progress.advance();
-    }
+  std::optional<report::Progress> progress;
+  if (!request.join.is_wanted) {
+    progress.emplace("reading files", static_cast<std::int64_t>(request.files.size()));
   }
-  set_purposes(runs, arguments.runs);
+  const auto [files, runs] = importing::import_logs(request, [&] { progress->advance(); });
+  progress.reset();
   if (format && runs.size() > 1) {
     throw arm::InputError(
         fmt::format("--save-as: writes a single run; the input makes {}", runs.size()));
@@ -172,18 +131,20 @@ int run_import(const ImportArguments& typed) {
 }
 
 void add_file_options(CLI::App& parser, ImportArguments& arguments) {
-  parser.add_option("FILE", arguments.files, "Input files")->required()->check(not_empty());
-  add_column_choice(parser, arguments.file.columns);
+  parser.add_option("FILE", arguments.request.files, "Input files")->required()->check(not_empty());
+  add_column_choice(parser, arguments.request.file.columns);
   parser
-      .add_option("--controller", arguments.controller,
+      .add_option("--controller", arguments.request.controller,
                   "Controller that made the torque of --reference: KEY=VALUE,... with sensor, kp, "
                   "kd, ki, derivative (error or measurement), limit [N m] and sample_time [s], or "
                   "a TOML file with these keys or A, B, C, D")
       ->check(not_empty());
-  parser.add_option("--kind", arguments.kind, "Content: time, frf or modal; default: detected");
-  parser.add_option("--period", arguments.file.period_s,
+  add_join_choice(parser, arguments.request.join);
+  parser.add_option("--kind", arguments.request.kind,
+                    "Content: time, frf or modal; default: detected");
+  parser.add_option("--period", arguments.request.file.period_s,
                     "Sampling period [s] of a file without a time column");
-  parser.add_option("--raw-columns", arguments.file.raw_columns,
+  parser.add_option("--raw-columns", arguments.request.file.raw_columns,
                     "The file is nothing but doubles (64 bit, little endian), row by row, N "
                     "columns; assign them by number, e.g. --column torque=#2");
 }
@@ -193,9 +154,9 @@ void add_file_options(CLI::App& parser, ImportArguments& arguments) {
 Command add_import(CLI::App& program) {
   const auto arguments = std::make_shared<ImportArguments>();
   CLI::App* parser = program.add_subcommand(
-      "import", "Convert log files (text, universal file, MATLAB, doubles) to a measurement");
+      "import", "Convert log files (text, universal file, MATLAB, JSON, doubles) to a measurement");
   add_file_options(*parser, *arguments);
-  add_runs_choice(*parser, arguments->runs);
+  add_runs_choice(*parser, arguments->request.runs);
   parser
       ->add_option("--arm", arguments->arm_file,
                    "Arm file; default: a template whose numbers are to be filled in")

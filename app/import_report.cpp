@@ -19,7 +19,7 @@ namespace flexarm::app {
 
 namespace {
 
-report::Table column_table(const ImportedFile& file) {
+report::Table column_table(const importing::ImportedFile& file) {
   report::Table table{"", {{"quantity"}, {"column"}, {"unit"}, {"scale"}}};
   const auto add = [&](const std::string& quantity, const measured::ColumnMapping& mapping) {
     table.add_row({quantity, mapping.expression.empty() ? mapping.name : "= " + mapping.expression,
@@ -53,13 +53,13 @@ std::string size_of(const measured::RunData& data) {
   return counted(std::get<measured::ModalTable>(data).size(), "row");
 }
 
-std::string heading_of(const ImportedFile& file) {
+std::string heading_of(const importing::ImportedFile& file) {
   return screen_paragraph(
       fmt::format("{}: {}, read as {}", arm::shown(file.file), file.format, to_string(file.kind)));
 }
 
 /// What is found below the heading of a file.
-std::string import_text_of(const ImportedFile& file) {
+std::string import_text_of(const importing::ImportedFile& file) {
   std::string out;
   for (const auto& sentence : file.warnings) {
     out += toned(screen_paragraph("  warning: " + sentence, 4), "warning:", Tone::warning);
@@ -75,7 +75,7 @@ std::string import_text_of(const ImportedFile& file) {
   return out;
 }
 
-std::string import_text_of(const ImportedRun& run) {
+std::string import_text_of(const importing::ImportedRun& run) {
   std::string out = screen_paragraph(fmt::format("run {}: {}", run.run.id, size_of(run.data)), 4);
   if (run.run.controller) {
     const auto& reference = std::get<measured::TimeRecord>(run.data).reference;
@@ -92,7 +92,7 @@ nlohmann::ordered_json text_or_null(std::string_view text) {
   return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
 }
 
-nlohmann::ordered_json import_json_of(const ImportedFile& file) {
+nlohmann::ordered_json import_json_of(const importing::ImportedFile& file) {
   nlohmann::ordered_json columns = nlohmann::ordered_json::array();
   const auto add = [&](std::string_view quantity, const measured::ColumnMapping& mapping) {
     columns.push_back({{"quantity", quantity},
@@ -112,7 +112,7 @@ nlohmann::ordered_json import_json_of(const ImportedFile& file) {
           {"not_used", file.not_used}};
 }
 
-nlohmann::ordered_json import_json_of(const ImportedRun& run) {
+nlohmann::ordered_json import_json_of(const importing::ImportedRun& run) {
   const auto* record = std::get_if<measured::TimeRecord>(&run.data);
   nlohmann::ordered_json json = {
       {"id", run.run.id},
@@ -147,8 +147,8 @@ nlohmann::ordered_json list_of(const Items& items) {
 
 }  // namespace
 
-std::string import_text(const std::vector<ImportedFile>& files,
-                        const std::vector<ImportedRun>& runs) {
+std::string import_text(const std::vector<importing::ImportedFile>& files,
+                        const std::vector<importing::ImportedRun>& runs) {
   std::string out;
   // Logs of one logger are read alike: what is said of the first is not said again.
   std::string said;
@@ -161,8 +161,8 @@ std::string import_text(const std::vector<ImportedFile>& files,
   return out;
 }
 
-std::string import_json(const std::vector<ImportedFile>& files,
-                        const std::vector<ImportedRun>& runs) {
+std::string import_json(const std::vector<importing::ImportedFile>& files,
+                        const std::vector<importing::ImportedRun>& runs) {
   return report::json_document("flexarm.import/2",
                                {{"files", list_of(files)}, {"runs", list_of(runs)}});
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "app/import_runs.hpp"
-#include "app/imported_file.hpp"
+#include "importing/import_runs.hpp"
+#include "importing/imported_file.hpp"
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 namespace flexarm::app {
 
 /// What the files were read as, and the runs made of them, for the terminal.
-std::string import_text(const std::vector<ImportedFile>& files,
-                        const std::vector<ImportedRun>& runs);
+std::string import_text(const std::vector<importing::ImportedFile>& files,
+                        const std::vector<importing::ImportedRun>& runs);
 
 /// The same as flexarm.import/2 (docs/json.md).
-std::string import_json(const std::vector<ImportedFile>& files,
-                        const std::vector<ImportedRun>& runs);
+std::string import_json(const std::vector<importing::ImportedFile>& files,
+                        const std::vector<importing::ImportedRun>& runs);
 
 }  // namespace flexarm::app

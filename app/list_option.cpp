@@ -1,6 +1,7 @@
 #include "app/list_option.hpp"
 
 #include "app/command.hpp"
+#include "app/suggestion.hpp"
 #include "arm/decimal_comma.hpp"
 #include "arm/input_error.hpp"
 
@@ -18,13 +19,15 @@ namespace {
 template <class Item, class Read>
 CLI::Option* add_list(CLI::App& parser, const std::string& name, std::vector<Item>& items,
                       const std::string& help, Read read) {
-  const auto take = [name, &items, read](const std::vector<std::string>& typed) {
+  const std::string unit = unit_of_option(name, help);
+  const auto take = [name, unit, &items, read](const std::vector<std::string>& typed) {
     items.clear();
     for (const auto& text : typed) {
       try {
         std::ranges::move(read(text), std::back_inserter(items));
       } catch (const arm::InputError& error) {
-        throw arm::InputError(fmt::format("{} {}", name, error.what()));
+        throw arm::InputError(fmt::format("{} {}{}", name, error.what(),
+                                          unit.empty() ? "" : fmt::format("; in {}", unit)));
       }
     }
   };
@@ -37,14 +40,18 @@ CLI::Option* add_list(CLI::App& parser, const std::string& name, std::vector<Ite
 
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
                              std::vector<double>& numbers, const std::string& help) {
-  return add_list(parser, name, numbers, help, arm::number_list)->type_name("FLOAT");
+  return add_list(parser, name, numbers, help, arm::number_list)->type_name("FLOAT,");
 }
 
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
                              std::vector<std::string>& words, const std::string& help) {
-  CLI::Option* option = add_list(parser, name, words, help, arm::list_items);
+  CLI::Option* option = add_list(parser, name, words, help, arm::list_items)->type_name("TEXT,");
   if (!words.empty()) option->default_str(fmt::format("{}", fmt::join(words, ",")));
   return option;
+}
+
+bool is_list_option(const CLI::Option& option) {
+  return option.get_delimiter() == ',' || option.get_type_name().ends_with(',');
 }
 
 }  // namespace flexarm::app

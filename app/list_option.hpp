@@ -18,4 +18,8 @@ CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
 CLI::Option* add_list_option(CLI::App& parser, const std::string& name,
                              std::vector<std::string>& words, const std::string& help);
 
+/// Whether the value of an option is a comma-separated list: one of those above, or one with the
+/// delimiter ','. All other options take one value, and may be repeated where several are allowed.
+bool is_list_option(const CLI::Option& option);
+
 }  // namespace flexarm::app

@@ -77,9 +77,9 @@ int run(int argc, const char* const* argv) {
       "  flexarm compare rig.toml                  are its poles and zeros accurate?\n"
       "  flexarm import log.csv --arm rig.toml --out bench   a log as a measurement\n"
       "  flexarm diagnose bench/measurement.toml   what does the simulation lack?\n\n"
-      "Numbers have a decimal point. The comma separates the items of a list: 0,0.05,0.2. What may "
-      "be meant as a decimal comma, such as 0,05, is refused.\n"
-      "flexarm COMMAND --help describes one command.\n"
+      "Numbers: with a decimal point; a comma separates the items of a list, as in 0,0.05,0.2. "
+      "What may be meant as a decimal comma, such as 0,05, is refused.\n"
+      "Help: flexarm COMMAND --help describes one command.\n"
       "Exit status: 0 success; 1 failure; 2 invalid input, with one line on standard error.");
   program.formatter(help_formatter());
   const std::array commands = {

@@ -1,11 +1,16 @@
 #include "app/manual_page_text.hpp"
 
 #include "app/build_facts.hpp"
+#include "app/option_values.hpp"
+#include "report/wrapped_text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <sstream>
+#include <string_view>
 
 namespace flexarm::app {
 
@@ -27,6 +32,14 @@ std::string roff(const std::string& text) {
   return result;
 }
 
+/// Text in lines of a source file, each with its end.
+std::string roff_lines(std::string_view text) {
+  constexpr std::size_t kWidth = 76;
+  std::string lines;
+  for (const auto& line : report::wrapped(text, kWidth, kWidth)) lines += roff(line) + "\n";
+  return lines;
+}
+
 std::string upper_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return text;
@@ -44,13 +57,9 @@ std::string option_item(const OptionDescription& option) {
     names += (names.empty() ? "\\fB" : ", \\fB") + roff(name) + "\\fR";
   }
   if (!option.value.empty() && !option.is_positional) {
-    names += fmt::format(" \\fI{}\\fR{}", roff(option.value), option.is_list ? " ..." : "");
+    names += fmt::format(" \\fI{}\\fR", roff(value_name(option)));
   }
-  std::string text = roff(option.text);
-  if (!option.default_value.empty()) {
-    text += fmt::format(" (default: {})", roff(option.default_value));
-  }
-  return fmt::format(".TP\n{}\n{}\n", names, text);
+  return fmt::format(".TP\n{}\n{}", names, roff_lines(text_with_default(option)));
 }
 
 /// The options or the positional arguments under a heading; nothing where there are none.
@@ -63,27 +72,46 @@ std::string option_section(const char* heading, const CommandDescription& comman
   return items.empty() ? "" : fmt::format(".SH {}\n{}", heading, items);
 }
 
-/// "Exit status: 0 success; ..." as a section, an example with its lines as they stand.
+/// The heading that a line of a footer begins with, as "Exit status" of "Exit status: 0 success";
+/// empty where what is in front of the first colon is a sentence, or part of one.
+std::string heading_of(const std::string& line) {
+  constexpr std::ptrdiff_t kMostBlanks = 2;
+  const std::string heading = line.substr(0, std::min(line.find(':'), line.size()));
+  const bool is_one = heading.size() < line.size() && heading.find('.') == std::string::npos &&
+                      std::ranges::count(heading, ' ') <= kMostBlanks;
+  return is_one ? heading : "";
+}
+
+/// An indented line of a footer: a term and its definition, or a line that stays as it stands.
+std::string indented_item(const std::string& line) {
+  const auto term = line.find_first_not_of(' ');
+  const auto blanks = line.find("  ", term);
+  if (line.find("flexarm ") != std::string::npos || blanks == std::string::npos) {
+    return ".nf\n" + roff(line) + "\n.fi\n";
+  }
+  return fmt::format(".TP\n{}\n{}", roff(line.substr(term, blanks - term)),
+                     roff_lines(line.substr(blanks)));
+}
+
+/// A section for each heading. Lines without one are paragraphs of the section before.
 std::string footer_sections(const std::string& footer) {
   std::string text;
   std::istringstream lines(footer);
-  bool verbatim = false;
   for (std::string line; std::getline(lines, line);) {
-    const bool is_indented = line.starts_with("  ");
-    if (is_indented != verbatim) text += is_indented ? ".nf\n" : ".fi\n";
-    verbatim = is_indented;
     if (line.empty()) continue;
-    const auto colon = line.find(':');
-    const bool is_heading = !is_indented && colon != std::string::npos;
-    if (!is_heading) {
-      text += roff(line) + "\n";
+    if (line.starts_with("  ")) {
+      text += indented_item(line);
       continue;
     }
-    text += fmt::format(".SH {}\n", roff(upper_case(line.substr(0, colon))));
-    const auto begin = line.find_first_not_of(' ', colon + 1);
-    if (begin != std::string::npos) text += roff(line.substr(begin)) + "\n";
+    const std::string heading = heading_of(line);
+    if (heading.empty()) {
+      text += ".PP\n" + roff_lines(line);
+    } else {
+      text += fmt::format(".SH {}\n", roff(upper_case(heading)));
+      text += roff_lines(line.substr(heading.size() + 1));
+    }
   }
-  return text + (verbatim ? ".fi\n" : "");
+  return text;
 }
 
 std::string argument_words(const CommandDescription& command) {
@@ -91,7 +119,7 @@ std::string argument_words(const CommandDescription& command) {
   for (const auto& option : command.options) {
     if (!option.is_positional) continue;
     const std::string word =
-        fmt::format("\\fI{}\\fR{}", roff(option.names.back()), option.is_list ? " ..." : "");
+        fmt::format("\\fI{}\\fR{}", roff(option.names.back()), option.is_repeatable ? " ..." : "");
     words += option.is_required ? " " + word : fmt::format(" [{}]", word);
   }
   return words;
@@ -103,10 +131,10 @@ std::string manual_page(const CommandDescription& program,
                         const std::vector<CommandDescription>& commands) {
   std::string text = header("flexarm", "finds what the simulation of a flexible arm gets wrong") +
                      "\\fBflexarm\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n" +
-                     roff(program.summary) + ".SH COMMANDS\n";
+                     roff_lines(program.summary) + ".SH COMMANDS\n";
   for (const auto& command : commands) {
-    text += fmt::format(".TP\n\\fBflexarm\\-{}\\fR(1)\n{}\n", roff(command.name),
-                        roff(command.summary));
+    text += fmt::format(".TP\n\\fBflexarm\\-{}\\fR(1)\n{}", roff(command.name),
+                        roff_lines(command.summary));
   }
   return text + option_section("OPTIONS", program, false) + footer_sections(program.footer);
 }

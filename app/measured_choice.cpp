@@ -5,9 +5,6 @@
 #include "measured/files/foreign_file.hpp"
 #include "measured/files/text_file.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -22,30 +19,24 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLargestMeasuredFile_bytes = std::size_t{1} << 28U;
 
 bool is_frequency_record(const std::string& file) {
-  const auto rows = measured::parse_csv(measured::read_text_file(file, kLargestMeasuredFile_bytes),
-                                        arm::shown(file));
-  return !rows.empty() && std::ranges::count(rows.front().cells, "re") > 0;
+  const std::string text = measured::read_text_file(file, kLargestMeasuredFile_bytes);
+  try {
+    const auto rows = measured::parse_csv(text, arm::shown(file));
+    return !rows.empty() && std::ranges::count(rows.front().cells, "re") > 0;
+  } catch (const arm::InputError&) {
+    return false;  // the reader of modal tables says what it is
+  }
 }
 
 MeasuredFile runs_of_measurement(const std::string& file) {
   const auto measurement = measured::read_measurement(file);
   MeasuredFile read;
   read.files = measured::files_of(file, measurement);
-  std::vector<std::string> left_out;
+  read.arm_file = measured::arm_file_of(file, measurement);
   for (const auto& run : measurement.runs) {
-    if (run.kind == measured::RunKind::time) {
-      left_out.push_back(run.id);
-      continue;
-    }
     read.runs.push_back(run);
     read.data.push_back(measured::read_run(file, run));
   }
-  const std::string remedy = fmt::format(
-      "time runs {} are not compared; flexarm identify {} --out identified estimates their modal "
-      "tables and frequency responses",
-      fmt::join(left_out, ", "), arm::shown(file));
-  if (read.runs.empty()) throw arm::InputError(fmt::format("{}: {}", arm::shown(file), remedy));
-  if (!left_out.empty()) read.notes.push_back(remedy);
   return read;
 }
 
@@ -55,6 +46,12 @@ bool has_payload_of(const measured::Run& run, const arm::Arm& arm) {
 }
 
 }  // namespace
+
+bool MeasuredFile::is_in_time() const {
+  return !data.empty() && std::ranges::all_of(data, [](const measured::RunData& run) {
+    return std::holds_alternative<measured::TimeRecord>(run);
+  });
+}
 
 std::vector<arm::Sensor> MeasuredFile::sensors_with_zeros() const {
   std::vector<arm::Sensor> sensors;
@@ -87,20 +84,29 @@ MeasuredFile read_measured_file(const std::string& file) {
 }
 
 compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
-                                          const compare::Comparison& comparison) {
+                                          const compare::Comparison& comparison, bool alone,
+                                          const std::function<void()>& after_run) {
   compare::MeasuredComparison all;
   for (std::size_t i = 0; i < measured.runs.size(); ++i) {
-    if (!has_payload_of(measured.runs[i], whole)) continue;
-    if (const auto* table = std::get_if<measured::ModalTable>(&measured.data[i])) {
+    const measured::Run& run = measured.runs[i];
+    const measured::RunData& data = measured.data[i];
+    const bool is_of_arm = has_payload_of(run, whole);
+    const bool is_simulated = std::holds_alternative<measured::TimeRecord>(data);
+    if (!is_of_arm && !(is_simulated && alone)) {
+      all.runs_left_out.push_back(run.id);
+    } else if (is_simulated) {
+      all.runs.push_back(compare::run_beside_simulation(whole, {run, data}));
+    } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
       auto rows = compare::beside_model(*table, comparison);
       if (auto shapes = compare::correlate_shapes(rows, comparison)) {
         all.shapes.push_back(std::move(*shapes));
       }
       std::ranges::move(rows, std::back_inserter(all.rows));
-    } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&measured.data[i])) {
-      auto responses = compare::responses_beside_models(whole, measured.runs[i].id, *record);
+    } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
+      auto responses = compare::responses_beside_models(whole, run.id, *record);
       std::ranges::move(responses, std::back_inserter(all.responses));
     }
+    after_run();
   }
   return all;
 }

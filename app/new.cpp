@@ -3,6 +3,7 @@
 #include "app/standard_output.hpp"
 #include "app/starter_arm.hpp"
 #include "arm/input_error.hpp"
+#include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
@@ -21,16 +22,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The file's name without its extension, as an arm file may have it: bytes that are no text
+/// escaped.
+std::string arm_name(const fs::path& path) {
+  const std::string name = path.stem().string();
+  try {
+    measured::parse_arm(starter_text(name), path.string(), {});
+  } catch (const arm::InputError&) {
+    return arm::shown(name);
+  }
+  return name;
+}
+
 int write_starter(const fs::path& path, bool force, const std::string& json) {
   std::error_code ignored;
   if (!force && fs::exists(fs::symlink_status(path, ignored))) {
     throw arm::InputError(
         fmt::format("{}: already exists; --force overwrites it", arm::shown(path.string())));
   }
-  measured::write_atomically(path, starter_text());
-  write_json(json,
-             report::json_document("flexarm.new/1", {{"file", path.string()},
-                                                     {"arm", report::arm_json(starter_arm())}}));
+  const std::string name = arm_name(path);
+  measured::write_atomically(path, starter_text(name));
+  write_json(
+      json, report::json_document("flexarm.new/1", {{"file", path.string()},
+                                                    {"arm", report::arm_json(starter_arm(name))}}));
   print(fmt::format("wrote {}\nnext: edit the values, then  flexarm modes {}\n",
                     arm::shown(path.string()), arm::shown(path.string())));
   return kSuccess;

@@ -1,5 +1,7 @@
 #include "app/option_tree.hpp"
 
+#include "app/list_option.hpp"
+
 #include <CLI/CLI.hpp>
 
 namespace flexarm::app {
@@ -19,7 +21,9 @@ OptionDescription describe_option(const CLI::Option& option) {
   const bool is_flag = option.get_items_expected_max() == 0;
   if (!is_flag) {
     description.value = option.get_type_name();
-    description.is_list = option.get_items_expected_max() > 1;
+    if (description.value.ends_with(',')) description.value.pop_back();
+    description.is_repeatable = option.get_items_expected_max() > 1;
+    description.is_list = is_list_option(option);
     description.default_value = option.get_default_str();
   }
   description.text = option.get_description();

@@ -14,8 +14,9 @@ struct OptionDescription {
   std::vector<std::string> names;  ///< "-h", "--help"; of a positional argument one: "ARM"
   bool is_positional = false;
   bool is_required = false;
-  bool is_list = false;  ///< takes several values, comma-separated or by repetition
-  std::string value;     ///< "TEXT", "FLOAT"; empty: a flag
+  bool is_list = false;        ///< one value is a comma-separated list
+  bool is_repeatable = false;  ///< several values, by repetition or as a list
+  std::string value;           ///< "TEXT", "FLOAT"; empty: a flag
   std::string default_value;
   std::string text;
 };

@@ -5,6 +5,8 @@
 #include "measured/checks/data_check.hpp"
 #include "measured/spectra/estimator.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <string_view>
@@ -46,6 +48,7 @@ std::map<std::string_view, Words> words_by_name() {
       {"--accept", check_names()},
       {"--basis", {"legendre", "clamped_free", "pinned_free", "clamped_with_payload"}},
       {"--clock", {"stamped", "even"}},
+      {"--join-grid", {"same", "first", "coarsest"}},
       {"--detrend", {"none", "mean", "line"}},
       {"--effects", effect_names()},
       {"--exclude", effect_names()},
@@ -95,6 +98,38 @@ OptionValues values_of(const OptionDescription& option) {
   const bool is_number = option.value == "FLOAT" || option.value == "INT" || option.value == "UINT";
   if (is_number || std::ranges::find(kOwnText, name) != std::ranges::end(kOwnText)) return {};
   return {OptionValues::Kind::file};
+}
+
+std::string value_name(const OptionDescription& option) {
+  if (option.value.empty()) return "";
+  std::string name = "TEXT";
+  if (option.value == "FLOAT") name = "NUMBER";
+  if (option.value == "INT" || option.value == "UINT") name = "N";
+  switch (values_of(option).kind) {
+    case OptionValues::Kind::file:
+      name = "FILE";
+      break;
+    case OptionValues::Kind::folder:
+      name = "FOLDER";
+      break;
+    case OptionValues::Kind::words:
+      name = "NAME";
+      break;
+    default:
+      break;
+  }
+  // What is stated in the command line, although a file may state it as well.
+  for (const char* form : {"KEY=VALUE", "NAME:UNIT", "Expression"}) {
+    if (option.text.find(form) != std::string::npos) name = "TEXT";
+  }
+  return name + (option.is_list ? ",..." : "");
+}
+
+std::string text_with_default(const OptionDescription& option) {
+  std::string value = option.default_value;
+  if (value.starts_with('[') && value.ends_with(']')) value = value.substr(1, value.size() - 2);
+  if (value.empty() || option.text.find("efault") != std::string::npos) return option.text;
+  return fmt::format("{} [default: {}]", option.text, value);
 }
 
 }  // namespace flexarm::app

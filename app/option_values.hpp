@@ -21,4 +21,9 @@ inline constexpr const char* kFileType = "FILE";
 /// file; a file for any other text; nothing for a number, a flag, and text of the user's own.
 OptionValues values_of(const OptionDescription& option);
 
+/// What help and manual call its value: "FILE", "NUMBER,..."; empty for a flag.
+std::string value_name(const OptionDescription& option);
+/// Its text with the default behind it, where the text does not say it.
+std::string text_with_default(const OptionDescription& option);
+
 }  // namespace flexarm::app

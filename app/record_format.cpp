@@ -37,20 +37,10 @@ RecordFormat record_format(const std::string& file, std::string word) {
       is_typed ? "" : "a .csv, .uff or .mat file, or used with --to ", fmt::join(words, " or ")));
 }
 
-std::string csv_text(const measured::RunData& data) {
-  if (const auto* time = std::get_if<measured::TimeRecord>(&data)) {
-    return measured::format_time_record(*time);
-  }
-  if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
-    return measured::format_frequency_record(*frequency);
-  }
-  return measured::format_modal_table(std::get<measured::ModalTable>(data));
-}
-
 void write_record(const measured::RunData& data, const std::filesystem::path& path,
                   RecordFormat format) {
   if (format == RecordFormat::csv) {
-    measured::write_atomically(path, csv_text(data));
+    measured::write_atomically(path, measured::format_run_data(data));
     return;
   }
   const auto write = [&](const auto& record) {

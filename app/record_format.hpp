@@ -14,9 +14,6 @@ enum class RecordFormat { csv, uff58, uff58b, mat };
 /// InputError for any other.
 RecordFormat record_format(const std::string& file, std::string word);
 
-/// The data as the CSV of their kind.
-std::string csv_text(const measured::RunData& data);
-
 /// Throws InputError for a modal table in any format but CSV.
 void write_record(const measured::RunData& data, const std::filesystem::path& path,
                   RecordFormat format);

@@ -18,6 +18,7 @@
 #include "report/tables/csv.hpp"
 #include "report/tables/modes_report.hpp"
 #include "report/tables/response_tables.hpp"
+#include "report/tables/truncation_text.hpp"
 #include "response/frequency/response_study.hpp"
 #include "response/settings.hpp"
 
@@ -50,6 +51,7 @@ struct ResponseArguments {
   response::ResponseOptions options;
   std::string state_space_file;
   bool modes_alone = false;
+  std::optional<int> modes;
   bool verbose = false;
   OutputChoice output;
 };
@@ -57,6 +59,8 @@ struct ResponseArguments {
 /// The options as the library takes them. Throws InputError for what is wrong in itself.
 response::ResponseOptions options_of(const ResponseArguments& arguments) {
   response::ResponseOptions options = arguments.options;
+  options.modes = arguments.modes.value_or(options.modes);
+  options.state_space_modes = arguments.modes;
   if (options.modes < 1) throw arm::out_of_range("--modes", options.modes, "", "1 or more");
   if (options.modes > kMostModes) {
     throw arm::out_of_range(
@@ -140,7 +144,11 @@ std::string study_text(const response::ResponseStudy& study,
   text += screen_rows(report::response_poles_table(study, static_cast<std::size_t>(options.modes)),
                       verbose ? kAllRows : kScreenRows, "--verbose, --out or --json");
   if (verbose) text += forms_text(study);
-  if (study.state_space) text += screen_table(report::state_space_table(study));
+  if (study.state_space) {
+    text += screen_table(report::state_space_table(study));
+    text +=
+        screen_paragraph(report::truncation_sentence(*study.truncation, study.response.sensors));
+  }
   return text;
 }
 
@@ -281,10 +289,10 @@ Command add_response(CLI::App& program) {
       ->capture_default_str();
   add_list_option(*parser, "--frequencies", options.frequency_Hz,
                   "Frequencies [Hz] instead of a range, comma-separated");
-  parser
-      ->add_option("--modes", options.modes,
-                   "Number of poles, of zeros per sensor, and of flexible modes of the state space")
-      ->capture_default_str();
+  parser->add_option(
+      "--modes", arguments->modes,
+      "Number of poles, of zeros per sensor, and of flexible modes of the state space; "
+      "default: 5 poles, and modes for a truncation error of 1e-4 in the range");
   parser
       ->add_option(
           "--state-space", arguments->state_space_file,

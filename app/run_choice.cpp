@@ -33,7 +33,9 @@ void add_run_choice(CLI::App& parser, RunChoice& choice) {
           "KIND:KEY=VALUE,... in N m, s and Hz. KIND is bang-bang (amplitude, pulse, start, pairs; "
           "pairs=0: to the end of the run), step (amplitude, start), random (rms, from, to, seed), "
           "multisine (rms, from, to, period, detection, seed), chirp (amplitude, from, to, sweep), "
-          "staircase (amplitude of a step, dwell, start, levels) or stepped-sine (amplitude, "
+          "staircase (amplitude of a step, dwell, start, levels), prbs (amplitude, clock, "
+          "register, "
+          "seed), sine (amplitude, frequency, offset, phase, start) or stepped-sine (amplitude, "
           "offset, from and to or bands=FROM:TO/FROM:TO/..., step or points, settle, cycles). All "
           "kinds: id, payload [kg], purpose. Repeat for more runs")
       ->check(not_empty())

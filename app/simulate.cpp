@@ -16,6 +16,7 @@
 #include "report/progress.hpp"
 #include "report/tables/simulation_report.hpp"
 #include "report/tables/stepped_sine_report.hpp"
+#include "report/tables/truncation_text.hpp"
 #include "response/settings.hpp"
 
 #include <CLI/CLI.hpp>
@@ -119,23 +120,25 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
   return notes;
 }
 
-/// What the sampling does not show of the modes kept, once for each kind of run.
-std::string sampling_notes(const experiment::SimulatedExperiment& experiment) {
-  std::string notes;
+/// What the longest sampling period does not show of the modes that are seen in the readings.
+std::string sampling_note(const experiment::SimulatedExperiment& experiment) {
+  const double highest_Hz = experiment.truncation.visible_Hz;
+  double longest_s = 0.0;
   for (const auto& run : experiment.runs) {
-    const auto& summary = run.simulation.summary;
-    if (summary.sampling == response::Sampling::fine) continue;
-    const double period_s = measured::sampling_period_s(run.record);
-    notes += screen_note(fmt::format(
-        "{}: highest mode {:.4g} Hz has {:.3g} samples per period: {}. Sampled values are "
-        "exact. Use a sampling period of {:.2g} s or fewer modes.",
-        run.id, 1.0 / (summary.samples_per_period * period_s), summary.samples_per_period,
-        summary.sampling == response::Sampling::aliased
-            ? "the mode is aliased"
-            : "sampled peaks may be 5 % too low or more",
-        period_s * summary.samples_per_period / response::kFineSamplesPerPeriod));
+    longest_s = std::max(longest_s, measured::sampling_period_s(run.record));
   }
-  return notes;
+  const double samples = 1.0 / (highest_Hz * longest_s);
+  if (!(samples < response::kFineSamplesPerPeriod)) return "";
+  const double fine_s = 1.0 / (highest_Hz * response::kFineSamplesPerPeriod);
+  const double digit_s = std::pow(10.0, std::floor(std::log10(fine_s)));
+  return screen_note(fmt::format(
+      "modes up to {:.3g} Hz are visible in the readings (1 % of a signal). The highest has {:.2g} "
+      "samples per period: {}. The readings are exact; a sampling period (--period) of {:.1g} s "
+      "shows all of it.",
+      highest_Hz, samples,
+      samples <= response::kAliasedSamplesPerPeriod ? "they show it at a lower frequency (alias)"
+                                                    : "its peaks fall between them",
+      digit_s * std::floor(fine_s / digit_s)));
 }
 
 /// Stepped sines that were not steady when they were measured.
@@ -200,7 +203,7 @@ void print_results(const SimulateArguments& arguments, const std::vector<Planned
   print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
   const std::string notes = rounding_notes(plan) + standing_notes(runs) +
-                            sampling_notes(experiment) + settling_notes(experiment.stepped_runs);
+                            sampling_note(experiment) + settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
 }
 
@@ -217,9 +220,11 @@ void print_model(const SimulateArguments& arguments, const arm::Arm& arm,
       arguments.options.static_correction ? " and a residual mode" : "",
       experiment.runs.empty() ? ""
                               : fmt::format("; {} of the torque, initial state at rest", hold))));
-  if (experiment.modes < arguments.options.modes) {
+  const auto& truncation = experiment.truncation;
+  print(screen_paragraph(report::truncation_sentence(truncation, experiment.sensors)));
+  if (experiment.modes < arguments.options.modes.value_or(0)) {
     print(screen_note(fmt::format("{} of {} modes: {} has {} degrees of freedom", experiment.modes,
-                                  arguments.options.modes, experiment.model,
+                                  *arguments.options.modes, experiment.model,
                                   experiment.degrees_of_freedom)));
   }
   print("\n");
@@ -234,8 +239,9 @@ void require_memory_for(const experiment::ExperimentOptions& options,
   double samples = 0.0;
   for (const auto& run : plan) samples += static_cast<double>(run.time_s.size());
   require_memory("samples of all runs", samples, kSampleBytes * samples);
-  const double states = 2.0 * options.modes;
-  require_memory("--modes", options.modes, kMatrices * sizeof(double) * states * states);
+  if (!options.modes) return;
+  const double states = 2.0 * *options.modes;
+  require_memory("--modes", *options.modes, kMatrices * sizeof(double) * states * states);
 }
 
 /// `written` is what the folder says of the arm.
@@ -304,7 +310,9 @@ Command add_simulate(CLI::App& program) {
                    "Torque between samples: zero (zero-order hold) or first (first-order hold)")
       ->capture_default_str();
   add_formulation_choice(*parser, options.formulation);
-  parser->add_option("--modes", options.modes, "Number of flexible modes")->capture_default_str();
+  parser->add_option("--modes", options.modes,
+                     "Number of flexible modes; default: as many as keep the truncation error of "
+                     "each sensor below 1e-4 of its signal");
   parser->add_flag("--static-correction", options.static_correction,
                    "Add a residual mode for omitted modes");
   add_sensor_choice(*parser, arguments->sensors);

@@ -1,15 +1,11 @@
 #include "app/starter_arm.hpp"
 
 #include "arm/arm_keys.hpp"
-#include "arm/effects.hpp"
-#include "effects/registry/vocabulary.hpp"
 #include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <iterator>
-#include <vector>
 
 namespace flexarm::app {
 
@@ -17,7 +13,7 @@ namespace {
 
 /// Values for the keys that the starter explains but leaves out; all of them together are an arm.
 arm::Arm example_values() {
-  arm::Arm example = starter_arm();
+  arm::Arm example = starter_arm("");
   example.beam.shear_modulus_Pa = 2.67e10;
   example.beam.given_flexural_rigidity_N_m2 = 3.6918;
   example.beam.given_linear_density_kg_per_m = 0.16486;
@@ -39,42 +35,19 @@ void append_key(std::string& out, const arm::ArmKey& key, const arm::Arm& starte
                  key.required || !otherwise ? "" : fmt::format("; {} if not given", *otherwise));
 }
 
-/// "torque [N m], static_torque [N m]"
-std::string keys_of(const arm::EffectDefinition& effect) {
-  std::vector<std::string> parameters;
-  for (const auto& parameter : effect.parameters) {
-    parameters.push_back(fmt::format("{} [{}]{}", parameter.name, parameter.unit,
-                                     parameter.otherwise ? ", optional" : ""));
-  }
-  if (effect.sensor) parameters.emplace_back("sensor, optional");
-  return fmt::format("{}", fmt::join(parameters, ", "));
-}
-
-std::string effects_text() {
-  std::string out =
-      "\n# Effects beyond the ideal arm, one table each:\n"
-      "#\n"
-      "# [effects.coulomb_friction]\n"
-      "# torque = 0.012             # [N m]\n"
-      "#\n"
-      "# A law of hub torque of your own, in theta [rad], omega [rad/s], tau [N m] and t [s]:\n"
-      "#\n"
-      "# [effects.my_cable]\n"
-      "# hub_torque = \"-k*theta^3\"\n"
-      "# k = 0.05                   # or { range = [0.001, 10] }, to be found by flexarm diagnose\n"
-      "#\n"
-      "# Effect library:\n"
-      "#\n";
-  for (const auto& effect : effects::vocabulary()) {
-    out += fmt::format("# {}: {}\n#     {}\n", effect->name, keys_of(*effect), effect->meaning);
-  }
-  return out;
-}
+constexpr const char* kEffectsText =
+    "\n# Friction, a soft clamp, a late torque and the like are effects, a table each:\n"
+    "#\n"
+    "# [effects.coulomb_friction]\n"
+    "# torque = 0.012             # [N m]\n"
+    "#\n"
+    "# flexarm effects lists them, flexarm effects coulomb_friction describes one.\n";
 
 }  // namespace
 
-arm::Arm starter_arm() {
+arm::Arm starter_arm(const std::string& name) {
   arm::Arm starter = arm::paper_arm();
+  starter.name = name;
   starter.beam.given_flexural_rigidity_N_m2.reset();
   return starter;
 }
@@ -96,14 +69,15 @@ std::string unfilled_text() {
                      key.required ? "; required" : "", measured::toml_number(*key.get(example)));
     }
   }
-  return out + effects_text();
+  return out + kEffectsText;
 }
 
-std::string starter_text() {
-  const arm::Arm starter = starter_arm();
+std::string starter_text(const std::string& name) {
+  const arm::Arm starter = starter_arm(name);
   const arm::Arm example = example_values();
   std::string out = fmt::format(
-      "# Arm file for flexarm, SI units. Commented keys are optional; the values are examples.\n"
+      "# Arm file for flexarm, SI units. The values are those of an aluminium link of 0.96 m:\n"
+      "# write your own. Keys behind a \"#\" are optional.\n"
       "name = {}\n",
       measured::toml_string(starter.name));
   for (const auto& table : arm::arm_tables()) {
@@ -113,7 +87,7 @@ std::string starter_text() {
       if (key.table == table) append_key(out, key, starter, example);
     }
   }
-  return out + effects_text();
+  return out + kEffectsText;
 }
 
 }  // namespace flexarm::app

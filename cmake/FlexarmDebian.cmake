@@ -23,7 +23,7 @@ experiments, and names the physical effects that a simulation lacks.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libflexarm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libspectra-dev, libsuitesparse-dev, libmatio-dev, libzip-dev, zlib1g-dev, libboost-dev, libflint-dev, libflint-arb-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, libtbb-dev, libnlopt-dev, libnlopt-cxx-dev")
+  "libeigen3-dev, libspectra-dev, libsuitesparse-dev, libmatio-dev, libhdf5-dev, libzip-dev, zlib1g-dev, libboost-dev, libflint-dev, libflint-arb-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libmuparser-dev, libtbb-dev, libnlopt-dev, libnlopt-cxx-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
   "The static libraries and headers behind the program flexarm: formulations,
 responses, identification and diagnosis, with a CMake package and a file for

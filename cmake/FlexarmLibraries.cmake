@@ -28,6 +28,11 @@ add_library(flexarm_matio INTERFACE)
 target_include_directories(flexarm_matio SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}")
 target_link_libraries(flexarm_matio INTERFACE "${MATIO_LIBRARY}")
 
+find_path(HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(HDF5_LIBRARY NAMES hdf5_serial hdf5 REQUIRED)
+add_library(flexarm_hdf5 INTERFACE)
+target_link_libraries(flexarm_hdf5 INTERFACE "${HDF5_LIBRARY}")
+
 # Its own package file asks for programs that Debian has in packages of their own.
 find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
 find_library(ZIP_LIBRARY zip REQUIRED)

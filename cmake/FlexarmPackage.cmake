@@ -3,7 +3,7 @@
 # `development`, as libraries and headers are (cmake/FlexarmRoom.cmake).
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/flexarm")
-install(TARGETS flexarm_spectra flexarm_klu flexarm_matio flexarm_zip flexarm_arb
+install(TARGETS flexarm_spectra flexarm_klu flexarm_matio flexarm_hdf5 flexarm_zip flexarm_arb
         EXPORT flexarmTargets COMPONENT development)
 install(EXPORT flexarmTargets NAMESPACE flexarm:: DESTINATION "${package_folder}"
         COMPONENT development)

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/rigid_hub.hpp"
 #include "assumed_modes/basis_report.hpp"
 #include "compare/damped_roots.hpp"
 #include "compare/finding.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 
@@ -100,20 +102,46 @@ void add_roots(const std::vector<Subject>& subjects, const FeatureFamily& family
   }
 }
 
+/// Puts the damped root of `subject` beside each undamped one of a family.
+void add_damped(const Subject& subject, std::size_t k, const FeatureFamily& family,
+                std::vector<RootRow>& rows) {
+  std::vector<RootRow*> found;
+  std::vector<std::complex<double>> undamped;
+  for (RootRow& row : rows) {
+    if (row.family != family) continue;
+    row.damped.resize(row.s_rad_per_s.size());
+    if (!row.s_rad_per_s[k]) continue;
+    found.push_back(&row);
+    undamped.push_back(*row.s_rad_per_s[k]);
+  }
+  if (family.zeros_of) {
+    const auto pairs = zeros_with_damping(subject.formulation, *family.zeros_of, undamped);
+    for (std::size_t i = 0; i < pairs.size(); ++i) found[i]->damped[k] = pairs[i];
+    return;
+  }
+  const auto poles = response::damped_poles(subject.formulation, family.count).flexible;
+  for (RootRow* row : found) {
+    const auto place = static_cast<std::size_t>(row->order - 1);
+    if (place < poles.size()) row->damped[k] = poles[place];
+  }
+}
+
 void add_damped_roots(const std::vector<Subject>& subjects, const Options& options,
                       Comparison& comparison) {
   if (!arm::linear_arm(comparison.arm).is_damped()) return;
   for (std::size_t k = 0; k < subjects.size(); ++k) {
-    const auto& formulation = subjects[k].formulation;
-    DampedRoots damped{poles_with_damping(formulation, options.poles), {}};
-    for (const auto& sensor : options.sensors) {
-      std::vector<std::complex<double>> undamped;
-      for (const auto& row : comparison.roots) {
-        if (row.family.zeros_of == sensor && row.s_rad_per_s[k]) {
-          undamped.push_back(*row.s_rad_per_s[k]);
-        }
-      }
-      damped.zeros_rad_per_s.push_back(zeros_with_damping(formulation, sensor, undamped));
+    for (const auto& family : families(options)) {
+      add_damped(subjects[k], k, family, comparison.roots);
+    }
+    DampedRoots damped{{}, std::vector<std::vector<std::complex<double>>>(options.sensors.size())};
+    for (const auto& row : comparison.roots) {
+      if (!row.damped[k]) continue;
+      const auto sensor = std::ranges::find(options.sensors, row.family.zeros_of);
+      auto& roots =
+          row.family.zeros_of
+              ? damped.zeros_rad_per_s[static_cast<std::size_t>(sensor - options.sensors.begin())]
+              : damped.poles_rad_per_s;
+      std::ranges::move(with_conjugates(*row.damped[k]), std::back_inserter(roots));
     }
     comparison.damped.push_back(std::move(damped));
   }
@@ -263,6 +291,11 @@ Comparison compare(const std::vector<Subject>& subjects, const Options& options)
 Comparison compare(const arm::Arm& whole, const Options& options) {
   require_valid(options);
   const arm::Arm arm = response::take_apart(whole).linear;
+  if (!arm::has_beam(arm)) {
+    Comparison without_models;
+    without_models.arm = arm;
+    return without_models;
+  }
   require_at_most("poles", options.poles, response::kMostRoots);
   require_at_most("zeros", options.non_collocated_zeros, response::kMostRoots);
   const int roots = std::max(options.poles, options.non_collocated_zeros);

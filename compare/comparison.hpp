@@ -48,6 +48,9 @@ struct RootRow {
   int order = 1;                                                 ///< from 1
   std::vector<std::optional<std::complex<double>>> s_rad_per_s;  ///< [subject]
   std::vector<double> distance;  ///< [subject], relative to the first; NaN where there is no root
+  /// [subject], what the root and its conjugate or mirror image become with the arm's damping;
+  /// empty where there is no root, or none was found. Without entries of an arm without damping.
+  std::vector<std::optional<arm::PolePair>> damped = {};
 };
 
 /// What a subject says of one family beside its roots.
@@ -90,7 +93,8 @@ struct Comparison {
 std::vector<Subject> standard_subjects(const arm::Arm& arm, int roots);
 
 /// Compares the standard subjects of an arm; its nonlinear, actuator and sensor effects are left
-/// out, and `Comparison::arm` is the arm without them. Throws InputError for an unusable arm,
+/// out, and `Comparison::arm` is the arm without them. Of an arm without a beam, of which all are
+/// the same, there are no subjects, and nothing is compared. Throws InputError for an unusable arm,
 /// sensor or option, and for more roots than response::kMostRoots.
 Comparison compare(const arm::Arm& whole, const Options& options);
 

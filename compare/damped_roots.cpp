@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <variant>
 
 namespace flexarm::compare {
 
@@ -14,7 +16,6 @@ constexpr int kMostSteps = 60;
 constexpr double kFirstStep = 1e-4;  // relative to the root
 constexpr double kSettled = 1e-10;   // |step| <= kSettled |s|
 constexpr double kFarthest = 0.5;    // |s - start| <= kFarthest |start|
-constexpr double kOneRoot = 1e-8;    // relative distance of what is one root
 
 std::optional<Root> followed(const response::AnyFormulation& formulation, const arm::Sensor& sensor,
                              Root start) {
@@ -35,36 +36,50 @@ std::optional<Root> followed(const response::AnyFormulation& formulation, const 
   return std::nullopt;
 }
 
-}  // namespace
-
-std::vector<Root> poles_with_damping(const response::AnyFormulation& formulation, int count) {
-  std::vector<Root> poles;
-  for (const auto& pair : response::damped_poles(formulation, count).flexible) {
-    poles.push_back(pair.first_rad_per_s);
-    poles.push_back(pair.second_rad_per_s);
-  }
-  return poles;
+/// The undamped zero and its mirror image, which damping moves away from each other's image.
+arm::PolePair undamped_pair(Root zero) {
+  return {zero, zero.imag() == 0.0 || zero.real() != 0.0 ? -zero : std::conj(zero)};
 }
 
-std::vector<Root> zeros_with_damping(const response::AnyFormulation& formulation,
-                                     const arm::Sensor& sensor,
-                                     const std::vector<Root>& undamped_rad_per_s) {
-  std::vector<Root> zeros;
-  const auto add = [&](Root zero) {
-    const bool is_new = std::ranges::none_of(
-        zeros, [&](Root other) { return std::abs(other - zero) <= kOneRoot * std::abs(zero); });
-    if (is_new) zeros.push_back(zero);
-  };
-  for (const Root& undamped : undamped_rad_per_s) {
-    // Mirror images at the imaginary axis are different roots with damping; conjugates remain.
-    for (const Root& start : {undamped, -std::conj(undamped)}) {
-      if (const auto zero = followed(formulation, sensor, start)) {
-        add(*zero);
-        add(std::conj(*zero));
-      }
+}  // namespace
+
+NaturalFrequency natural_frequency(const arm::PolePair& pair) {
+  const double omega = std::sqrt(std::abs(pair.first_rad_per_s * pair.second_rad_per_s));
+  const double sum = (pair.first_rad_per_s + pair.second_rad_per_s).real();
+  return {omega / (2.0 * std::numbers::pi), -sum / (2.0 * omega)};
+}
+
+std::vector<std::optional<arm::PolePair>> zeros_with_damping(
+    const response::AnyFormulation& formulation, const arm::Sensor& sensor,
+    std::span<const Root> undamped_rad_per_s) {
+  const auto* own = std::get_if<exact_tf::ExactArm>(&formulation);
+  auto pairs = own != nullptr ? own->damped_zeros(sensor, undamped_rad_per_s).pairs
+                              : exact_tf::ExactArm(response::arm_of(formulation))
+                                    .damped_zeros(sensor, undamped_rad_per_s)
+                                    .pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (own != nullptr && pairs[i]) continue;
+    const arm::PolePair start = pairs[i].value_or(undamped_pair(undamped_rad_per_s[i]));
+    const auto first = followed(formulation, sensor, start.first_rad_per_s);
+    const bool is_conjugate = start.second_rad_per_s == std::conj(start.first_rad_per_s);
+    const auto second = !first || is_conjugate
+                            ? first
+                            : followed(formulation, sensor, start.second_rad_per_s);
+    pairs[i].reset();
+    if (!first || !second) continue;
+    pairs[i] = arm::PolePair{*first, is_conjugate ? std::conj(*first) : *second};
+  }
+  return pairs;
+}
+
+std::vector<Root> with_conjugates(const arm::PolePair& pair) {
+  std::vector<Root> roots;
+  for (const Root& s : {pair.first_rad_per_s, pair.second_rad_per_s}) {
+    for (const Root& root : {s, std::conj(s)}) {
+      if (std::ranges::find(roots, root) == roots.end()) roots.push_back(root);
     }
   }
-  return zeros;
+  return roots;
 }
 
 }  // namespace flexarm::compare

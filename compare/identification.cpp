@@ -1,6 +1,7 @@
 #include "compare/identification.hpp"
 
 #include "arm/rigid_hub.hpp"
+#include "compare/reading_clusters.hpp"
 #include "compare/standard_models.hpp"
 #include "response/any_formulation.hpp"
 #include "response/frequency/response_study.hpp"
@@ -20,6 +21,8 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Modes whose aliases are looked for lie up to this times kMostFactor above what is seen.
+constexpr double kAliasReach = 2.0;
 const arm::Sensor kTip{arm::SensorKind::tip_displacement, 0.0};
 
 AnalyticalPole pole_of(const arm::PolePair& pair) {
@@ -42,17 +45,22 @@ AnalyticalGains gains_of(const std::string& model, const response::AnyFormulatio
   return gains;
 }
 
-/// The highest frequency that the readings of a payload show [Hz].
+/// The highest frequency that the readings of a payload show, or samples may [Hz].
 double highest_Hz(const measured::Identification& identification, const arm::Payload& payload,
                   const arm::Arm& arm) {
   double highest = 0.0;
+  double nyquist = 0.0;
+  for (const auto& run : identification.runs) {
+    if (run.sampling_period_s > 0.0) nyquist = std::max(nyquist, 0.5 / run.sampling_period_s);
+  }
   for (const auto& reading : identification.readings) {
     if (reading.payload.value_or(arm.payload) != payload) continue;
     for (const auto& entry : reading.table) {
       highest = std::max(highest, entry.frequency_Hz.value_or(0.0));
     }
   }
-  return highest;
+  // Modes above half the sampling frequency have aliases; those far above answer too little.
+  return std::max(highest, std::min(nyquist, kAliasReach * highest));
 }
 
 /// Of the responses of runs with a payload; empty where there are none.
@@ -150,29 +158,65 @@ double IdentifiedRoot::error_percent() const {
   return 100.0 * (*measured.frequency_Hz - *analytical_Hz) / *analytical_Hz;
 }
 
+namespace {
+
+/// The entry beside the analytical root of that order, without an order where there is none.
+IdentifiedRoot beside(const measured::ModalEntry& entry, int order, const ModelRoots& model,
+                      const AnalyticalModes& analytical) {
+  IdentifiedRoot root{entry, {}, {}, {}};
+  const std::vector<ModelRoot>* roots = &model.poles;
+  if (entry.feature == measured::Feature::zero) {
+    const auto zeros = std::ranges::find(model.zeros, *entry.sensor, &ModelRoots::Zeros::sensor);
+    if (zeros == model.zeros.end()) return root;
+    roots = &zeros->roots;
+  }
+  const auto at = std::ranges::find(*roots, order, &ModelRoot::order);
+  if (at == roots->end()) return root;
+  root.order = order;
+  root.analytical_Hz = at->frequency_Hz;
+  if (entry.feature == measured::Feature::pole) {
+    root.analytical_damping_ratio =
+        analytical.poles[static_cast<std::size_t>(order - 1)].damping_ratio;
+  }
+  return root;
+}
+
+/// The roots of one reading at their places.
+std::vector<IdentifiedRoot> at_places(const measured::ModalTable& table,
+                                      const std::vector<RootPlace>& places, const ModelRoots& model,
+                                      const AnalyticalModes& analytical) {
+  std::vector<IdentifiedRoot> roots;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    IdentifiedRoot& root =
+        roots.emplace_back(beside(table[i], places[i].order.value_or(0), model, analytical));
+    if (analytical.is_empty()) root.order = places[i].order;
+    root.alias_of_Hz = places[i].alias_of_Hz;
+    root.alias_of_order = places[i].alias_of_order;
+  }
+  return roots;
+}
+
+/// The sampling period that all runs of a reading have; 0 without one.
+double sampling_period_s(const measured::Identification& identification,
+                         const measured::ModalReading& reading) {
+  double period_s = 0.0;
+  for (const auto& run : identification.runs) {
+    if (std::ranges::find(reading.runs, run.run.id) == reading.runs.end()) continue;
+    if (run.sampling_period_s == 0.0) return 0.0;
+    period_s = run.sampling_period_s;
+  }
+  return period_s;
+}
+
+}  // namespace
+
 std::vector<IdentifiedRoot> beside_analytical(const measured::ModalTable& table,
                                               const AnalyticalModes& analytical) {
   const ModelRoots model = model_roots(analytical);
   const std::vector<RootOrder> orders = number_roots(table, model);
   std::vector<IdentifiedRoot> roots;
   for (std::size_t i = 0; i < table.size(); ++i) {
-    IdentifiedRoot& root = roots.emplace_back(IdentifiedRoot{table[i], {}, {}, {}});
-    const int order = orders[i].order.value_or(0);
-    if (table[i].feature == measured::Feature::pole) {
-      const auto at = std::ranges::find(model.poles, order, &ModelRoot::order);
-      if (at == model.poles.end()) continue;
-      root.order = order;
-      root.analytical_Hz = at->frequency_Hz;
-      root.analytical_damping_ratio =
-          analytical.poles[static_cast<std::size_t>(order - 1)].damping_ratio;
-      continue;
-    }
-    const auto zeros = std::ranges::find(model.zeros, *table[i].sensor, &ModelRoots::Zeros::sensor);
-    if (zeros == model.zeros.end()) continue;
-    const auto at = std::ranges::find(zeros->roots, order, &ModelRoot::order);
-    if (at == zeros->roots.end()) continue;
-    root.order = order;
-    root.analytical_Hz = at->frequency_Hz;
+    roots.push_back(beside(table[i], orders[i].order.value_or(0), model, analytical));
   }
   return roots;
 }
@@ -182,16 +226,16 @@ measured::ModalTable in_analytical_order(const std::vector<IdentifiedRoot>& root
   for (const auto& root : roots) {
     if (!root.order) continue;
     table.push_back(root.measured);
-    table.back().order = *root.order;
+    if (root.analytical_Hz) table.back().order = *root.order;
   }
   return table;
 }
 
 std::vector<IdentifiedCondition> conditions_of(const measured::Identification& identification,
-                                               const arm::Arm& arm) {
+                                               const std::optional<arm::Arm>& arm) {
   std::vector<IdentifiedCondition> conditions;
   const auto condition_of = [&](const std::optional<arm::Payload>& payload) -> auto& {
-    const arm::Payload own = payload.value_or(arm.payload);
+    const arm::Payload own = payload.value_or(arm ? arm->payload : arm::Payload{});
     const auto at = std::ranges::find(conditions, own, &IdentifiedCondition::payload);
     if (at != conditions.end()) return *at;
     conditions.push_back({.payload = own});
@@ -202,26 +246,28 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
   }
   const auto sensors = sensors_of(identification);
   for (auto& condition : conditions) {
-    arm::Arm loaded = arm;
+    if (!arm) break;
+    arm::Arm loaded = *arm;
     loaded.payload = condition.payload;
     condition.analytical = analytical_modes(
-        loaded, sensors, needed_Hz(highest_Hz(identification, condition.payload, arm)),
-        range_of(identification, condition.payload, arm));
+        loaded, sensors, needed_Hz(highest_Hz(identification, condition.payload, *arm)),
+        range_of(identification, condition.payload, *arm));
   }
   for (std::size_t i = 0; i < identification.readings.size(); ++i) {
-    const auto& reading = identification.readings[i];
-    auto& condition = condition_of(reading.payload);
-    condition.readings.push_back(i);
-    // The zeros of one sensor number the poles of all.
-    measured::ModalTable all = reading.table;
-    for (std::size_t k = 0; k < identification.readings.size(); ++k) {
-      const auto& other = identification.readings[k];
-      if (k == i || other.method != reading.method || other.runs != reading.runs) continue;
-      all.insert(all.end(), other.table.begin(), other.table.end());
+    condition_of(identification.readings[i].payload).readings.push_back(i);
+  }
+  for (auto& condition : conditions) {
+    std::vector<SampledReading> readings;
+    for (const std::size_t i : condition.readings) {
+      const auto& reading = identification.readings[i];
+      readings.push_back({&reading, sampling_period_s(identification, reading)});
     }
-    auto roots = beside_analytical(all, condition.analytical);
-    roots.resize(reading.table.size());
-    condition.roots.push_back(std::move(roots));
+    const ModelRoots model = model_roots(condition.analytical);
+    const auto places = place_readings(readings, arm ? std::optional(model) : std::nullopt);
+    for (std::size_t k = 0; k < readings.size(); ++k) {
+      condition.roots.push_back(
+          at_places(readings[k].reading->table, places[k], model, condition.analytical));
+    }
   }
   for (std::size_t i = 0; i < identification.fits.size(); ++i) {
     condition_of(identification.fits[i].payload).fits.push_back(i);

@@ -42,6 +42,9 @@ struct AnalyticalModes {
   std::vector<AnalyticalGains> gains;  ///< exact_tf, fem, assumed_modes
   response::FrequencyResponse
       response;  ///< through actuator and sensors; empty where not asked for
+
+  /// Of no arm.
+  bool is_empty() const { return gains.empty(); }
 };
 
 /// What measured roots are numbered by: poles, and antiresonances counted from 1.
@@ -70,6 +73,10 @@ struct IdentifiedRoot {
   std::optional<int> order;  ///< from 1; of zeros among the antiresonances; empty: there is none
   std::optional<double> analytical_Hz;
   std::optional<double> analytical_damping_ratio;  ///< of poles
+  /// Of the alias of a mode above the Nyquist frequency: that mode's frequency, and its order where
+  /// the arm file has it.
+  std::optional<double> alias_of_Hz = {};
+  std::optional<int> alias_of_order = {};
 
   /// 100 (measured - analytical)/analytical; NaN where either is unknown.
   double error_percent() const;
@@ -94,8 +101,10 @@ struct IdentifiedCondition {
   std::vector<std::size_t> fits = {};                   ///< indices
 };
 
-/// One a payload, in the order of the runs. `arm` has the payload of runs without one of their own.
+/// One a payload, in the order of the runs, with one order for all estimates of a root
+/// (compare/reading_clusters.hpp). `arm` has the payload of runs without one of their own. Without
+/// an arm nothing is analytical, and poles and zeros are counted from 1 up.
 std::vector<IdentifiedCondition> conditions_of(const measured::Identification& identification,
-                                               const arm::Arm& arm);
+                                               const std::optional<arm::Arm>& arm);
 
 }  // namespace flexarm::compare

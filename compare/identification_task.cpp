@@ -115,7 +115,7 @@ measured::PeakPlace place_of(const IdentificationRequest& request) {
 }
 
 measured::IdentificationOptions options_of(const IdentificationRequest& request,
-                                           const arm::Arm& arm) {
+                                           const std::optional<arm::Arm>& arm) {
   measured::IdentificationOptions options;
   options.spectrum = settings_of(request);
   options.peaks.place = place_of(request);
@@ -123,7 +123,7 @@ measured::IdentificationOptions options_of(const IdentificationRequest& request,
     options.input =
         arm::read_word(request.spelled("input"), request.input, measured::kResponseInputs);
   }
-  options.arms = described_arms(arm);
+  if (arm) options.arms = described_arms(*arm);
   options.fit = request.fit;
   if (request.modes && *request.modes < 1) {
     throw arm::out_of_range(request.spelled("modes"), *request.modes, "", "1 or more");
@@ -138,7 +138,7 @@ measured::IdentificationOptions options_of(const IdentificationRequest& request,
   options.total_inertia_kg_m2 = request.total_inertia_kg_m2;
   options.modal_fit.modes = request.modes;
   options.modal_fit.highest_order = request.highest_order;
-  options.modal_fit.rigid_body = arm::linear_arm(arm).turns_freely();
+  if (arm) options.modal_fit.rigid_body = arm::linear_arm(*arm).turns_freely();
   if (request.from_Hz || request.to_Hz) {
     const double from_Hz = request.from_Hz.value_or(0.0);
     if (!(from_Hz >= 0.0)) {
@@ -155,18 +155,41 @@ measured::IdentificationOptions options_of(const IdentificationRequest& request,
   return options;
 }
 
+std::optional<arm::Arm> arm_of(const std::filesystem::path& measurement_file,
+                               const measured::Measurement& measurement) {
+  if (measurement.arm.empty()) return std::nullopt;
+  const auto arm_file = measured::arm_file_of(measurement_file, measurement);
+  if (measured::is_unfilled_arm_file(arm_file)) return std::nullopt;
+  arm::Arm arm = measured::read_arm_file(arm_file, effects::vocabulary());
+  arm::require_valid(arm);
+  return arm;
+}
+
 }  // namespace
 
 IdentificationTask read_identification_task(const std::filesystem::path& measurement_file,
                                             const IdentificationRequest& request) {
   IdentificationTask task;
   task.measurement = measured::read_measurement(measurement_file);
-  const auto arm_file = measured::beside(measurement_file, task.measurement.arm);
-  task.arm = measured::read_arm_file(arm_file, effects::vocabulary());
-  arm::require_valid(task.arm);
+  task.arm = arm_of(measurement_file, task.measurement);
   task.options = options_of(request, task.arm);
   for (const auto& run : chosen_runs(request, task.measurement, measurement_file.string())) {
     task.runs.push_back({run, measured::read_run(measurement_file, run)});
+  }
+  select_sensors(request, task.runs);
+  return task;
+}
+
+IdentificationTask identification_task(const Recording& recording,
+                                       const IdentificationRequest& request) {
+  IdentificationTask task{{recording.name, "", {}}, recording.arm, {}, {}};
+  for (const auto& [run, data] : recording.runs) task.measurement.runs.push_back(run);
+  arm::require_valid(recording.arm);
+  task.options = options_of(request, task.arm);
+  for (const auto& chosen : chosen_runs(request, task.measurement, "the measurement")) {
+    task.runs.push_back(*std::ranges::find(recording.runs, chosen.id, [](const auto& one) {
+      return one.run.id;
+    }));
   }
   select_sensors(request, task.runs);
   return task;

@@ -2,6 +2,7 @@
 
 #include "arm/arm.hpp"
 #include "arm/option_name.hpp"
+#include "compare/recording.hpp"
 #include "measured/run_identification.hpp"
 
 #include <filesystem>
@@ -39,7 +40,8 @@ struct IdentificationRequest {
 /// All that measured::identify and `conditions_of` are given.
 struct IdentificationTask {
   measured::Measurement measurement;  ///< with all of its runs
-  arm::Arm arm;
+  /// Empty where the measurement states none, or a file in which no number is filled in.
+  std::optional<arm::Arm> arm;
   std::vector<measured::MeasuredRun> runs;  ///< those asked for, with the sensors asked for
   measured::IdentificationOptions options;
 };
@@ -48,5 +50,9 @@ struct IdentificationTask {
 /// a reader does, and for what is asked for and not there, or out of its range.
 IdentificationTask read_identification_task(const std::filesystem::path& measurement_file,
                                             const IdentificationRequest& request);
+
+/// The same of a measurement in memory.
+IdentificationTask identification_task(const Recording& recording,
+                                       const IdentificationRequest& request);
 
 }  // namespace flexarm::compare

@@ -1,12 +1,15 @@
 #include "compare/measured.hpp"
 
 #include "arm/uncertainties.hpp"
+#include "compare/damped_roots.hpp"
 #include "compare/root_numbering.hpp"
 #include "exact_tf/exact_arm.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -28,17 +31,26 @@ std::vector<const RootRow*> imaginary_roots(const Comparison& comparison,
   return roots;
 }
 
+/// Of model k with damping; empty where that root was not found.
+std::optional<NaturalFrequency> natural_of(const RootRow& row, std::size_t k) {
+  if (!row.s_rad_per_s[k]) return std::nullopt;
+  if (row.damped.empty()) return NaturalFrequency{std::abs(*row.s_rad_per_s[k]) / kRadiansPerCycle};
+  if (!row.damped[k]) return std::nullopt;
+  return natural_frequency(*row.damped[k]);
+}
+
 /// The first model's, counted from 1.
 std::vector<ModelRoot> numbered(const std::vector<const RootRow*>& roots) {
   std::vector<ModelRoot> out;
+  int order = 0;
   for (const RootRow* row : roots) {
-    out.push_back(
-        {row->s_rad_per_s.front()->imag() / kRadiansPerCycle, static_cast<int>(out.size()) + 1});
+    ++order;
+    if (const auto natural = natural_of(*row, 0)) out.push_back({natural->frequency_Hz, order});
   }
   return out;
 }
 
-/// Frequencies [Hz] of poles or of zeros on the imaginary axis, by what they are of.
+/// Natural frequencies [Hz] of poles, or of zeros that are antiresonances without damping.
 using Frequencies = std::map<std::optional<std::string>, std::vector<double>>;
 
 Frequencies frequencies_of(const arm::Arm& arm, const Comparison& comparison,
@@ -49,13 +61,15 @@ Frequencies frequencies_of(const arm::Arm& arm, const Comparison& comparison,
     return static_cast<int>(std::ranges::count(
         comparison.roots, zeros_of, [](const RootRow& row) { return row.family.zeros_of; }));
   };
-  for (const double omega : exact.poles(count({})).omega_rad_per_s) {
-    frequencies[{}].push_back(omega / kRadiansPerCycle);
+  for (const auto& pair : exact.damped_poles(count({})).flexible) {
+    frequencies[{}].push_back(natural_frequency(pair).frequency_Hz);
   }
   for (const auto& sensor : sensors) {
-    for (const auto s : exact.zeros(sensor, count(sensor)).s_rad_per_s) {
-      if (s.real() == 0.0)
-        frequencies[arm::to_string(sensor)].push_back(s.imag() / kRadiansPerCycle);
+    auto zeros = exact.zeros(sensor, count(sensor)).s_rad_per_s;
+    std::erase_if(zeros, [](std::complex<double> s) { return s.real() != 0.0; });
+    for (const auto& pair : exact.damped_zeros(sensor, zeros).pairs) {
+      frequencies[arm::to_string(sensor)].push_back(
+          pair ? natural_frequency(*pair).frequency_Hz : std::numeric_limits<double>::quiet_NaN());
     }
   }
   return frequencies;
@@ -102,14 +116,6 @@ void add_model_std(const Comparison& comparison, const std::vector<arm::Sensor>&
   }
 }
 
-/// The projected damping ratio of the first model's flexible mode of that order.
-std::optional<double> damping_ratio_of(const Comparison& comparison, int order) {
-  if (comparison.modes.empty()) return std::nullopt;
-  const auto& modes = comparison.modes.front();
-  if (order < 1 || static_cast<std::size_t>(order) > modes.size()) return std::nullopt;
-  return modes[static_cast<std::size_t>(order) - 1].damping_ratio;
-}
-
 MeasuredRow measured_row(const measured::ModalEntry& entry, const std::optional<int>& order,
                          const std::vector<const RootRow*>& roots, const Comparison& comparison) {
   MeasuredRow row;
@@ -122,10 +128,15 @@ MeasuredRow measured_row(const measured::ModalEntry& entry, const std::optional<
   const auto place = static_cast<std::size_t>(order.value_or(0)) - 1;
   if (order && place < roots.size()) {
     for (std::size_t k = 0; k < models; ++k) {
-      const auto& s = roots[place]->s_rad_per_s[k];
-      if (s) row.frequencies_Hz[k] = s->imag() / kRadiansPerCycle;
+      if (const auto natural = natural_of(*roots[place], k)) {
+        row.frequencies_Hz[k] = natural->frequency_Hz;
+      }
     }
     row.model_frequency_Hz = row.frequencies_Hz.front();
+    row.undamped_Hz = roots[place]->s_rad_per_s.front()->imag() / kRadiansPerCycle;
+    if (const auto natural = natural_of(*roots[place], 0)) {
+      row.model_damping_ratio = natural->damping_ratio;
+    }
   }
   if (entry.frequency_Hz) {
     const double std_Hz = entry.frequency_std_Hz.value_or(0.0);
@@ -139,13 +150,10 @@ MeasuredRow measured_row(const measured::ModalEntry& entry, const std::optional<
     row.error_percent =
         100.0 * (*entry.frequency_Hz - *row.model_frequency_Hz) / *row.model_frequency_Hz;
   }
-  if (entry.feature == measured::Feature::pole && row.model_frequency_Hz) {
-    row.model_damping_ratio = damping_ratio_of(comparison, *order);
-    if (row.model_damping_ratio && entry.damping_ratio &&
-        entry.damping_ratio_std.value_or(0.0) > 0.0) {
-      row.damping_deviation =
-          (*entry.damping_ratio - *row.model_damping_ratio) / *entry.damping_ratio_std;
-    }
+  if (row.model_damping_ratio && entry.damping_ratio &&
+      entry.damping_ratio_std.value_or(0.0) > 0.0) {
+    row.damping_deviation =
+        (*entry.damping_ratio - *row.model_damping_ratio) / *entry.damping_ratio_std;
   }
   return row;
 }

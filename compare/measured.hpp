@@ -14,10 +14,11 @@ namespace flexarm::compare {
 struct MeasuredRow {
   measured::ModalEntry measured;
   std::optional<int> order;  ///< as stated, or assigned (compare/root_numbering.hpp)
-  /// The first model's frequency for the same feature and order. A measured zero is an
-  /// antiresonance, so zeros are counted along the imaginary axis; empty where the model has no
-  /// such zero.
+  /// The first model's natural frequency |s|/2 pi of the damped root of the same feature and order,
+  /// which is what is measured. A measured zero is an antiresonance, so zeros are counted along the
+  /// imaginary axis of the undamped arm; empty where the model has no such zero.
   std::optional<double> model_frequency_Hz;
+  std::optional<double> undamped_Hz = {};  ///< the first model's, without damping
   /// 100 (measured - model)/model of the first model.
   double error_percent = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::optional<double>> frequencies_Hz;  ///< [model]
@@ -29,7 +30,7 @@ struct MeasuredRow {
   /// (measured - model)/root of the sum of both variances; a measurement without a standard
   /// deviation counts as exact. NaN where neither states one.
   double combined_deviation = std::numeric_limits<double>::quiet_NaN();
-  std::optional<double> model_damping_ratio;  ///< of poles: the first model's, projected
+  std::optional<double> model_damping_ratio;  ///< of the first model's damped root
   /// (measured - model)/standard deviation of the measured damping ratio.
   double damping_deviation = std::numeric_limits<double>::quiet_NaN();
 };

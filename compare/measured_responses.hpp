@@ -3,6 +3,7 @@
 #include "arm/arm.hpp"
 #include "compare/mac.hpp"
 #include "compare/measured.hpp"
+#include "compare/measured_runs.hpp"
 #include "measured/files/frequency_record.hpp"
 
 #include <complex>
@@ -41,11 +42,19 @@ inline constexpr double kLeastCoherence = 0.5;
 std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const std::string& run,
                                                       const measured::FrequencyRecord& record);
 
+/// A model within 5 % of the measured natural frequencies is a usual aim of tests of structures;
+/// for signals it is a fit of 95 %.
+inline constexpr double kMeasuredTolerance_percent = 5.0;
+
 /// All that was measured of one arm, beside its models.
 struct MeasuredComparison {
   std::vector<MeasuredRow> rows;
   std::vector<MeasuredResponse> responses;
-  std::vector<ShapeCorrelation> shapes;  ///< one a table that has any
+  std::vector<ShapeCorrelation> shapes;         ///< one a table that has any
+  std::vector<MeasuredTimeRun> runs = {};       ///< of kind `time`
+  std::vector<std::string> runs_left_out = {};  ///< ids, of another payload than the arm's
+  /// Largest difference of what agrees without a standard deviation (compare/measured_verdict.hpp).
+  double tolerance_percent = kMeasuredTolerance_percent;
 };
 
 }  // namespace flexarm::compare

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -22,6 +23,9 @@ namespace {
 
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
+
+/// What a report can do without is computed until so long after the time limit.
+constexpr std::chrono::seconds kReportTime{1};
 
 /// A candidate as it is, not fitted.
 Fit evaluated(const Problem& problem, const Candidate& candidate) {
@@ -66,16 +70,16 @@ std::vector<Overlay> overlays(const Observations& observations, const Eigen::Vec
 }
 
 /// Refitted run by run: of the causes the leading one, else the best effect by itself where
-/// something is wrong.
+/// something is wrong. Throws Cancelled after the deadline.
 std::optional<RunDrift> drift_of(const Selection& selection, Verdict verdict,
-                                 const std::vector<Cause>& causes) {
+                                 const std::vector<Cause>& causes, const Deadline& deadline) {
   const bool is_wrong = verdict == Verdict::unexplained && !selection.singles.empty();
   if (causes.empty() && !is_wrong) return std::nullopt;
   const Candidate& candidate =
       causes.empty() ? selection.singles.front().fit.candidate : selection.chosen.fit.candidate;
   std::size_t leading = 0;
   while (!causes.empty() && candidate.effects[leading].effect != causes.front().effect) ++leading;
-  return run_drift(selection.problem, candidate, leading);
+  return run_drift(selection.problem.until(deadline), candidate, leading);
 }
 
 Gain gain_between(const Misfit& before, const Misfit& after) {
@@ -172,7 +176,7 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
     made.notices.push_back(
         fmt::format("the files do not say what the torque does between samples: taken to be {}",
                     hold == measured::TorqueHold::zero ? "constant" : "linear"));
-    if (made.verdict == Verdict::adequate) return made;
+    if (made.verdict == Verdict::adequate || is_over(options.deadline)) return made;
   }
   // What one of the two did not search for, neither did both.
   if (!tried[0].search_end) tried[0].search_end = tried[1].search_end;
@@ -208,10 +212,12 @@ std::vector<double> least_errors(const std::vector<JudgedSelection>& judged) {
   return errors;
 }
 
-/// Those that were fitted and not named, without those that cannot be simulated.
+/// Those that were fitted and not named, without those that cannot be simulated. Throws Cancelled
+/// after the deadline.
 void add_near_misses(const PredictedSelection& predicted, const JudgedSelection& judged,
-                     std::vector<NearMiss>& found) {
+                     const Deadline& deadline, std::vector<NearMiss>& found) {
   const Selection& selection = judged.selection;
+  const Problem problem = predicted.simulated.until(deadline);
   for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {
       const Candidate& candidate = one.fit.candidate;
@@ -220,7 +226,6 @@ void add_near_misses(const PredictedSelection& predicted, const JudgedSelection&
       if (!is_simulation(predicted.predictor)) {
         const bool is_whole = &selection != &predicted.selection;
         const Candidate whole = is_whole ? candidate : predicted.whole(candidate);
-        const Problem& problem = predicted.simulated;
         const auto left = problem.residuals(whole, problem.estimation_runs());
         if (!left) continue;
         error =
@@ -236,9 +241,10 @@ void add_near_misses(const PredictedSelection& predicted, const JudgedSelection&
 }
 
 std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
-                                  const std::vector<JudgedSelection>& all) {
+                                  const std::vector<JudgedSelection>& all,
+                                  const Deadline& deadline) {
   std::vector<NearMiss> found;
-  for (const JudgedSelection& judged : all) add_near_misses(predicted, judged, found);
+  for (const JudgedSelection& judged : all) add_near_misses(predicted, judged, deadline, found);
   std::ranges::stable_sort(found, [](const NearMiss& one, const NearMiss& other) {
     return std::pair(-one.probability, one.error) < std::pair(-other.probability, other.error);
   });
@@ -310,8 +316,20 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   arm_of_effects.relative_uncertainties = experiment.arm.relative_uncertainties;
   const bool is_open =
       made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
-  const bool has_balance = predicted.balance && !is_over(options.deadline);
-  if (has_balance && is_open) made.empirical_law = predicted.law_beside_causes();
+  const Deadline last = options.deadline ? *options.deadline + kReportTime : options.deadline;
+  std::vector<std::string> left_out;
+  const auto in_time = [&](const char* what, const auto& step) {
+    try {
+      require_time(last);
+      step();
+    } catch (const Cancelled&) {
+      left_out.emplace_back(what);
+    }
+  };
+  if (predicted.balance && is_open) {
+    in_time("a law of the hub torque",
+            [&] { made.empirical_law = predicted.law_beside_causes(last); });
+  }
   made.extended_arm =
       made.empirical_law ? with_law(arm_of_effects, *made.empirical_law) : arm_of_effects;
   // Of all runs: those that were fitted and those that were held out.
@@ -340,15 +358,17 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd errors_of_effects = errors_of(residuals_of_effects);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
-  if (!is_over(options.deadline)) {
+  in_time("the estimates of each run", [&] {
     const bool is_of_motion = judged.size() > 1 && judged.back().chosen().effects.empty();
     const JudgedSelection& leading = is_of_motion ? judged.front() : judged.back();
     drift = made.causes.empty() && !made.inconsistent.empty()
                 ? made.inconsistent.front()
-                : drift_of(leading.selection, made.verdict, leading.causes());
-  }
-  made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
-  if (has_balance && made.symptoms.hub_torque.terms.empty()) {
+                : drift_of(leading.selection, made.verdict, leading.causes(), last);
+  });
+  in_time("the symptoms", [&] {
+    made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
+  });
+  if (predicted.balance && made.symptoms.hub_torque.terms.empty()) {
     // A simulation that runs away shows nothing of the torque that it lacks.
     auto& statements = made.symptoms.statements;
     std::erase_if(statements,
@@ -358,16 +378,22 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   made.refitted =
       refitted_numbers(problem.experiment().arm, chosen.nuisances, least_errors(judged));
-  // Seconds, and of most use where the time was too short for a name.
-  if (is_open) made.missing_force = missing_force(problem, arm_of_effects, errors_of_effects);
-  const Problem& filtered = predicted.balance ? *predicted.balance : selection.problem;
-  if (filtered.predictor().noise() && !is_over(options.deadline)) {
-    made.prediction_errors = prediction_errors(filtered, experiment.arm, made.extended_arm);
+  if (is_open) {
+    in_time("the place of the missing force", [&] {
+      made.missing_force = missing_force(problem, arm_of_effects, errors_of_effects, last);
+    });
   }
-  made.posterior = posterior_sets(predicted, options);
+  const Problem& filtered = predicted.balance ? *predicted.balance : selection.problem;
+  if (filtered.predictor().noise()) {
+    in_time("the prediction errors", [&] {
+      made.prediction_errors =
+          prediction_errors(filtered.until(last), experiment.arm, made.extended_arm);
+    });
+  }
+  made.posterior = posterior_sets(predicted, options, last);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
-  if (is_open && !is_over(options.deadline)) {
-    made.near_misses = near_misses(predicted, judged);
+  if (is_open) {
+    in_time("the near misses", [&] { made.near_misses = near_misses(predicted, judged, last); });
   }
   ReportedWork work(progress, options.deadline);
   try {
@@ -375,9 +401,11 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
         what_next(selection.problem, selection, made.verdict != Verdict::unexplained, work);
   } catch (const Cancelled&) {
     made.cancelled = !work.is_out_of_time();
-    if (!made.search_end) {
-      made.notices.emplace_back("the time limit left no time for the recommended runs");
-    }
+    left_out.emplace_back("the recommended runs");
+  }
+  if (!left_out.empty()) {
+    made.notices.push_back(
+        fmt::format("the time limit left no time for {}", fmt::join(left_out, ", ")));
   }
   return made;
 }

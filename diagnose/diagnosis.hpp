@@ -103,8 +103,9 @@ struct Diagnosis {
   bool cancelled = false;
 };
 
-/// Diagnoses an experiment by these hypotheses. After options.deadline: by what had been fitted;
-/// the run-by-run estimates, near misses and further runs are left out.
+/// Diagnoses an experiment by these hypotheses. After options.deadline: by what had been fitted; a
+/// notice names what the report lacks, as the further runs. What was fitted is always evaluated on
+/// all data, once by the arm as filed and once by what is reported.
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace flexarm::diagnose {
 
 namespace {
@@ -37,8 +39,8 @@ Deadline deadline_of(const DiagnosisRequest& request, Clock::time_point begun) {
   return begun + std::chrono::duration_cast<Clock::duration>(limit);
 }
 
-Experiment read_experiment(const std::filesystem::path& measurement_file,
-                           const DiagnosisRequest& request) {
+Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request,
+                         const Deadline& deadline) {
   std::vector<measured::Fault> faults;
   for (const auto& check : request.accepted) {
     try {
@@ -47,7 +49,7 @@ Experiment read_experiment(const std::filesystem::path& measurement_file,
       throw arm::InputError(fmt::format("{} {}", request.spelled("accept"), error.what()));
     }
   }
-  return read_experiment(measurement_file, faults);
+  return experiment_of(std::move(recording), faults, deadline);
 }
 
 void require_valid(const DiagnosisRequest& request) {

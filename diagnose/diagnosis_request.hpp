@@ -25,10 +25,10 @@ struct DiagnosisRequest {
 /// When a diagnosis that began then must end. Throws InputError for a limit that is not above 0.
 Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock::time_point begun);
 
-/// The experiment with the accepted faults. Throws InputError for a check that there is not, and as
-/// `read_experiment(file, faults)`.
-Experiment read_experiment(const std::filesystem::path& measurement_file,
-                           const DiagnosisRequest& request);
+/// The experiment of a recording, with the accepted faults. Throws InputError for a check that
+/// there is not, and as `experiment_of(recording, faults, deadline)`.
+Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request,
+                         const Deadline& deadline = {});
 
 /// Throws InputError for a number of causes below 1 and an unknown predictor.
 void require_valid(const DiagnosisRequest& request);

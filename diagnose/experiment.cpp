@@ -6,9 +6,7 @@
 #include "compare/described_arm.hpp"
 #include "diagnose/long_runs.hpp"
 #include "diagnose/modal_orders.hpp"
-#include "effects/registry/vocabulary.hpp"
 #include "measured/checks/run_check.hpp"
-#include "measured/files/arm_file.hpp"
 
 #include <fmt/format.h>
 
@@ -115,12 +113,16 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold) {
 }
 
 Experiment read_experiment(const fs::path& measurement_file,
-                           const std::vector<measured::Fault>& accepted) {
-  const measured::Measurement measurement = measured::read_measurement(measurement_file);
+                           const std::vector<measured::Fault>& accepted,
+                           const arm::Deadline& deadline) {
+  return experiment_of(compare::read_recording(measurement_file), accepted, deadline);
+}
+
+Experiment experiment_of(compare::Recording recording, const std::vector<measured::Fault>& accepted,
+                         const arm::Deadline& deadline) {
   Experiment experiment;
-  experiment.files = measured::files_of(measurement_file, measurement);
-  experiment.arm = measured::read_arm_file(measured::beside(measurement_file, measurement.arm),
-                                           effects::vocabulary());
+  experiment.files = recording.files;
+  experiment.arm = recording.arm;
   experiment.notices = arm::plausibility_notes(experiment.arm);
   for (const auto& [name, hypothesis] : experiment.arm.hypotheses) {
     if (!experiment.arm.effects.contains(name)) continue;
@@ -129,17 +131,20 @@ Experiment read_experiment(const fs::path& measurement_file,
         name));
   }
   experiment.arm = arm::without_hypotheses(experiment.arm);
-  for (const measured::Run& run : measurement.runs) {
-    if (run.kind == measured::RunKind::modal) {
-      arm::require_beam(experiment.arm, fmt::format("{}: run {}: a modal table",
-                                                    measurement_file.string(), run.id));
-    }
-    experiment.runs.push_back({run, measured::read_run(measurement_file, run)});
+  experiment.runs = std::move(recording.runs);
+  for (const auto& [run, data] : experiment.runs) {
+    if (run.kind != measured::RunKind::modal) continue;
+    arm::require_beam(experiment.arm,
+                      fmt::format("{}: run {}: a modal table", recording.place(), run.id));
   }
-  auto findings = measured::check_records(experiment.runs, compare::described_arms(experiment.arm));
+  auto findings =
+      measured::check_records(experiment.runs, compare::described_arms(experiment.arm), deadline);
+  if (arm::is_over(deadline)) {
+    experiment.notices.emplace_back("the time limit left no time for all data checks");
+  }
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     measured::MeasuredRun& read = experiment.runs[r];
-    const std::string file = measured::beside(measurement_file, read.run.file).string();
+    const std::string file = recording.place(read.run);
     if (read.run.kind == measured::RunKind::time) {
       keep_usable(experiment, read, file, std::move(findings[r]), accepted);
     } else if (auto* table = std::get_if<measured::ModalTable>(&read.data)) {
@@ -167,7 +172,7 @@ Experiment read_experiment(const fs::path& measurement_file,
   if (!fits) {
     throw arm::InputError(fmt::format(
         "{}: run.purpose: all runs are validation runs; needs at least one estimation run",
-        measurement_file.string()));
+        recording.place()));
   }
   return experiment;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/deadline.hpp"
+#include "compare/recording.hpp"
 #include "diagnose/measured_motion.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/run_identification.hpp"
@@ -58,10 +60,18 @@ Experiment with_hold(Experiment experiment, measured::TorqueHold hold);
 /// (`split_purposes`). Long runs are cut, with notices (diagnose/long_runs.hpp). Entries of modal
 /// tables get the orders that they do not state (diagnose/modal_orders.hpp).
 ///
+/// After the deadline the data are not checked any more, with a notice.
+///
 /// Throws InputError `FILE:LINE: ...` where a reader does, for a run with a torque that is zero or
 /// with no usable channel or entry, and for runs none of which is for estimation.
 Experiment read_experiment(const std::filesystem::path& measurement_file,
-                           const std::vector<measured::Fault>& accepted = {});
+                           const std::vector<measured::Fault>& accepted = {},
+                           const arm::Deadline& deadline = {});
+
+/// The same of a recording that was read or is in memory.
+Experiment experiment_of(compare::Recording recording,
+                         const std::vector<measured::Fault>& accepted = {},
+                         const arm::Deadline& deadline = {});
 
 /// Gives every run without a purpose one. Runs that say nothing are for estimation where another
 /// is for validation. Where none is, the last run of a payload is, of the payload with most runs;

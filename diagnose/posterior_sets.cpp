@@ -27,6 +27,8 @@ bool is_in_ratio(const SearchedParameter& parameter, double value) {
       return true;
     case effects::Spacing::from_zero:
       return value >= parameter.lowest;
+    case effects::Spacing::about_zero:
+      return value >= -parameter.lowest;
     case effects::Spacing::from_infinity:
       return value <= parameter.highest;
   }
@@ -102,7 +104,8 @@ PosteriorSet joined(const PosteriorSet& by_motion, std::size_t its_numbers, Post
 }  // namespace
 
 std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
-                                         const SelectionOptions& options) {
+                                         const SelectionOptions& options,
+                                         const Deadline& deadline) {
   const Selection& selection = predicted.selection;
   const Posterior posterior = posterior_of(selection, options);
   std::vector<PosteriorSet> sets;
@@ -135,7 +138,10 @@ std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
       }
     }
     std::ranges::stable_sort(others, std::ranges::greater{}, &decltype(others)::value_type::first);
-    for (const auto& [probability, one] : others) add(*one, probability);
+    for (const auto& [probability, one] : others) {
+      if (is_over(deadline)) break;
+      add(*one, probability);
+    }
   }
   double sum = 0.0;
   for (const PosteriorSet& set : sets) sum += set.probability;

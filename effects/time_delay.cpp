@@ -4,10 +4,11 @@ namespace flexarm::effects {
 
 Entry time_delay() {
   return {.definition = define({.name = "time_delay",
-                                .meaning = "T(t) = tau(t - delay)",
+                                .meaning = "T(t) = tau(t - delay); below 0 where the torque is "
+                                           "logged late",
                                 .parameters = {{.name = "delay",
                                                 .unit = "s",
-                                                .range = arm::kNotNegative,
+                                                .range = arm::kAnyFinite,
                                                 .meaning = "delay of the torque",
                                                 .example = 0.003,
                                                 .neutral = 0.0}},
@@ -18,8 +19,10 @@ Entry time_delay() {
                                     }}),
           .shows = Shows::in_time_and_frequency,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-            return {{"delay", 0.02 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
-                     Spacing::from_zero}};
+            // A loop that logs the torque of its last step beside the readings of this one is a
+            // sample late. Torque that is held jumps there: the range goes on beyond.
+            return {{"delay", -4.0 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
+                     Spacing::about_zero}};
           },
           .speaks_for = "phase lag proportional to frequency; poles, zeros and magnitude unchanged",
           .refuted_by = "magnitude roll-off with frequency (that is a lag)"};

@@ -73,6 +73,15 @@ arm::ZeroSet ExactArm::zeros(const arm::Sensor& sensor, int count) const {
   return std::visit([&](const auto& engine) { return engine.zeros(at, count); }, engine_);
 }
 
+DampedZeroSet ExactArm::damped_zeros(
+    const arm::Sensor& sensor, std::span<const std::complex<double>> undamped_rad_per_s) const {
+  const arm::Sensor at = placed(sensor, arm_);
+  if (const auto* plain_arm = std::get_if<PlainArm>(&engine_)) {
+    return plain_arm->damped_zeros(undamped_rad_per_s);
+  }
+  return std::get<TransferMatrixArm>(engine_).damped_zeros(at, undamped_rad_per_s);
+}
+
 std::vector<arm::Mode> ExactArm::modes(int count, std::span<const arm::Sensor> sensors,
                                        std::span<const double> stations_m) const {
   require_count(count);

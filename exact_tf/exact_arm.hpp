@@ -49,6 +49,9 @@ class ExactArm {
   arm::PoleSet poles(int count) const;
   arm::DampedPoleSet damped_poles(int count) const;
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  /// What undamped zeros of `zeros` become with damping, each followed by itself.
+  DampedZeroSet damped_zeros(const arm::Sensor& sensor,
+                             std::span<const std::complex<double>> undamped_rad_per_s) const;
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
   arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,

@@ -204,6 +204,27 @@ arm::ZeroSet PlainArm::zeros(const arm::Sensor& sensor, int count) const {
                                : find_sensor_zeros(arm_, sensor, count, arithmetic_);
 }
 
+DampedZeroSet PlainArm::damped_zeros(
+    std::span<const std::complex<double>> undamped_rad_per_s) const {
+  const Real kelvin_voigt_s = arm_.kelvin_voigt_s;
+  DampedZeroSet set;
+  for (const std::complex<double>& undamped : undamped_rad_per_s) {
+    if (undamped.real() == 0.0) {
+      set.pairs.emplace_back(kelvin_voigt_pair(undamped.imag(), kelvin_voigt_s));
+      continue;
+    }
+    // s = b +- sqrt(b^2 + s_0^2), the one without cancellation first.
+    const Complex square = in<Real>(undamped) * in<Real>(undamped);
+    const Complex half = 0.5L * kelvin_voigt_s * square;
+    const Complex root = std::sqrt(half * half + square);
+    const Complex far = std::abs(half + root) >= std::abs(half - root) ? half + root : half - root;
+    set.pairs.emplace_back(arm::PolePair{in<double>(-square / far), in<double>(far)});
+  }
+  set.summary.converged = true;
+  set.summary.method = "closed form";
+  return set;
+}
+
 std::vector<arm::Mode> PlainArm::modes(int count, std::span<const arm::Sensor> sensors,
                                        std::span<const double> stations_m) const {
   const auto roots = find_poles(ratios_, count);

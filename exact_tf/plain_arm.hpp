@@ -3,6 +3,7 @@
 #include "arm/formulation.hpp"
 #include "arm/linear_arm.hpp"
 #include "exact_tf/arithmetic.hpp"
+#include "exact_tf/damped_zeros.hpp"
 #include "exact_tf/numerator.hpp"
 
 #include <complex>
@@ -33,6 +34,9 @@ class PlainArm {
   arm::DampedPoleSet damped_poles(int count) const;
   arm::ZeroSet hub_zeros(int count) const;
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  /// s^2/(1 + kv s) = s_0^2 beside each undamped zero s_0, whatever the sensor: a numerator depends
+  /// on lambda alone.
+  DampedZeroSet damped_zeros(std::span<const std::complex<double>> undamped_rad_per_s) const;
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
   /// D_ij = kv omega_i^2 delta_ij + c theta_i theta_j/I_T.

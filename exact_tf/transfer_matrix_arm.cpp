@@ -180,6 +180,61 @@ arm::ZeroSet chain_zeros(const ArmInBeamUnits<R>& units, const arm::Sensor& sens
   return find_sensor_zeros(numerator, units.omega_scale_rad_per_s, count, zero_options(arithmetic));
 }
 
+/// D of UndampedMode of the root s of F(s; 0): F depends on s^2 and s d, so that ds/dd is real.
+Real decay_of(const DampedCharacteristic& characteristic, const Complex& s, Real kelvin_voigt_s) {
+  constexpr Real kChange = 1e-5L;  // central differences: errors of 1e-10, of a path's first step
+  const auto change = [&](const Complex& s_step, const Complex& damping_step) {
+    const auto after = characteristic(s + s_step, damping_step);
+    const auto before = characteristic(s - s_step, -damping_step);
+    return std::pair(after.value - before.value * std::exp(before.log_scale - after.log_scale),
+                     after.log_scale);
+  };
+  const auto [by_s, scale_by_s] = change(kChange * s, 0.0L);
+  const auto [by_damping, scale_by_damping] = change(0.0L, kChange);
+  const Complex speed = -s * by_damping / by_s * std::exp(scale_by_damping - scale_by_s);
+  return -2.0L * speed.real() + kelvin_voigt_s * (s * s).real();
+}
+
+template <class R>
+DampedZeroSet chain_damped_zeros(const ArmInBeamUnits<R>& units, double kelvin_voigt_s,
+                                 const arm::Sensor& sensor,
+                                 std::span<const std::complex<double>> undamped_rad_per_s) {
+  const Real scale = units.omega_scale_rad_per_s;
+  const R position = sensor.position_m / units.length_m;
+  const DampedCharacteristic characteristic = [&](const Complex& s,
+                                                  const Complex& damping) -> Scaled<Complex> {
+    try {
+      const TransferChain<std::complex<R>> chain(
+          units, damped_at(units, in<R>(s / scale), in<R>(damping)));
+      const auto value = sensor_value(chain, sensor.kind, position);
+      return {in<Real>(value.value), value.log_scale};
+    } catch (const std::domain_error&) {
+      return {std::numeric_limits<Real>::quiet_NaN(), 0.0L};
+    }
+  };
+  DampedZeroSet set;
+  std::vector<UndampedMode> followed;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < undamped_rad_per_s.size(); ++i) {
+    const Complex s = in<Real>(undamped_rad_per_s[i]);
+    if (s.real() != 0.0L && s.imag() != 0.0L) continue;
+    followed.push_back({-(s * s).real(), decay_of(characteristic, s, kelvin_voigt_s)});
+    places.push_back(i);
+  }
+  set.pairs.resize(undamped_rad_per_s.size());
+  if (followed.empty()) {
+    set.summary.converged = undamped_rad_per_s.empty();
+    return set;
+  }
+  const arm::DampedPoleSet roots = follow_damping(characteristic, kelvin_voigt_s, followed);
+  set.summary = roots.summary;
+  if (!set.summary.converged) return set;
+  set.pairs[places.front()] = roots.lowest;
+  for (std::size_t i = 1; i < places.size(); ++i) set.pairs[places[i]] = roots.flexible[i - 1];
+  set.summary.converged = places.size() == undamped_rad_per_s.size();
+  return set;
+}
+
 template <class R>
 arm::ModalModel chain_model(const arm::LinearArm& arm, const ArmInBeamUnits<R>& units, int count,
                             std::span<const arm::Sensor> sensors,
@@ -272,6 +327,14 @@ arm::DampedPoleSet TransferMatrixArm::damped_poles(int count) const {
 arm::ZeroSet TransferMatrixArm::zeros(const arm::Sensor& sensor, int count) const {
   require_chain_count(count);
   return std::visit([&](const auto& units) { return chain_zeros(units, sensor, count); }, units_);
+}
+
+DampedZeroSet TransferMatrixArm::damped_zeros(
+    const arm::Sensor& sensor, std::span<const std::complex<double>> undamped_rad_per_s) const {
+  const auto zeros = [&](const auto& units) {
+    return chain_damped_zeros(units, arm_.kelvin_voigt_s, sensor, undamped_rad_per_s);
+  };
+  return std::visit(zeros, units_);
 }
 
 arm::ModalModel TransferMatrixArm::modal_model(int count, std::span<const arm::Sensor> sensors,

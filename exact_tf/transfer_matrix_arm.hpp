@@ -4,6 +4,7 @@
 #include "arm/linear_arm.hpp"
 #include "exact_tf/arithmetic.hpp"
 #include "exact_tf/beam_units.hpp"
+#include "exact_tf/damped_zeros.hpp"
 
 #include <complex>
 #include <span>
@@ -28,6 +29,11 @@ class TransferMatrixArm {
   arm::PoleSet poles(int count) const;
   arm::DampedPoleSet damped_poles(int count) const;
   arm::ZeroSet zeros(const arm::Sensor& sensor, int count) const;
+  /// By continuation in damping (exact_tf/pole_continuation.hpp) of the sensor's numerator, whose
+  /// zeros those of the hub are the poles of the arm with its rotor held. Zeros off both axes are
+  /// not followed.
+  DampedZeroSet damped_zeros(const arm::Sensor& sensor,
+                             std::span<const std::complex<double>> undamped_rad_per_s) const;
   std::vector<arm::Mode> modes(int count, std::span<const arm::Sensor> sensors,
                                std::span<const double> stations_m) const;
   arm::ModalModel modal_model(int count, std::span<const arm::Sensor> sensors,

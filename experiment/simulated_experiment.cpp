@@ -1,8 +1,11 @@
 #include "experiment/simulated_experiment.hpp"
 
+#include "arm/deadline.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "experiment/mode_choice.hpp"
 #include "response/time/arm_simulator.hpp"
+#include "response/time/single_modes.hpp"
 #include "response/time/step_check.hpp"
 #include "response/time/time_model.hpp"
 
@@ -32,14 +35,17 @@ struct PayloadModel {
   arm::Payload payload;
   ArmParts parts;
   arm::ModalModel model;
+  /// All modes, where those beyond `model` are stepped one by one.
+  std::optional<arm::ModalModel> whole = {};
 };
 
 /// Models by payload: one is often that of several runs.
 class Models {
  public:
   Models(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
-         const ExperimentOptions& options, SimulatedExperiment& experiment)
-      : arm_(arm), sensors_(sensors), options_(options), experiment_(experiment) {}
+         const ExperimentOptions& options, const ModeChoice& choice,
+         SimulatedExperiment& experiment)
+      : arm_(arm), sensors_(sensors), options_(options), choice_(choice), experiment_(experiment) {}
 
   const PayloadModel& of(const arm::Payload& payload) {
     const auto known = std::ranges::find(models_, payload, &PayloadModel::payload);
@@ -47,16 +53,21 @@ class Models {
     arm::Arm loaded = arm_;
     loaded.payload = payload;
     PayloadModel made{payload, response::take_apart(loaded), {}};
-    const auto chosen = options_.formulation.make(
-        made.parts.linear, options_.modes + (options_.static_correction ? 1 : 0));
-    made.model = response::time_model(chosen.formulation, made.parts, options_.modes, sensors_,
+    const int modes = choice_.coupled;
+    const auto chosen =
+        options_.formulation.make(made.parts.linear, modes + (options_.static_correction ? 1 : 0));
+    made.model = response::time_model(chosen.formulation, made.parts, modes, sensors_,
                                       options_.static_correction);
     experiment_.model = chosen.name;
     experiment_.settings = chosen.settings;
     experiment_.degrees_of_freedom = response::degrees_of_freedom(chosen.formulation);
-    experiment_.modes = std::min(options_.modes, static_cast<int>(made.model.modes.size()) - 1);
+    experiment_.modes = std::min(modes, static_cast<int>(made.model.modes.size()) - 1);
     if (experiment_.degrees_of_freedom > 0) {
       experiment_.modes = std::min(experiment_.modes, experiment_.degrees_of_freedom - 1);
+    }
+    if (choice_.truncation.modes > modes) {
+      experiment_.modes = choice_.truncation.modes;
+      made.whole = response::modal_model(chosen.formulation, experiment_.modes, sensors_, {});
     }
     models_.push_back(std::move(made));
     return models_.back();
@@ -66,6 +77,7 @@ class Models {
   const arm::Arm& arm_;
   const std::vector<arm::Sensor>& sensors_;
   const ExperimentOptions& options_;
+  const ModeChoice& choice_;
   SimulatedExperiment& experiment_;
   std::vector<PayloadModel> models_;
 };
@@ -79,8 +91,34 @@ void require_finite(const std::vector<double>& reading, const arm::Sensor& senso
                   run.record.time_s[static_cast<std::size_t>(wrong - reading.begin())]));
 }
 
-/// Thrown out of a run whose progress function ended it.
-struct ExperimentCancelled {};
+void compare_steps(SimulatedRun& run, const PayloadModel& model,
+                   const std::vector<arm::Sensor>& sensors, const SimulationOptions& options,
+                   const ProgressOf& progress_of) {
+  const auto& torque_N_m = run.record.torque_N_m;
+  const auto finer =
+      progress_of(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
+  run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
+                                        torque_N_m, options, finer)
+                       .relative_difference;
+  if (run.step_error.empty() && !sensors.empty()) throw arm::Cancelled{};
+}
+
+/// Adds the readings of the modes that the simulation does not have.
+void add_further_modes(SimulatedRun& run, const PayloadModel& model,
+                       const std::vector<arm::Sensor>& sensors, const SimulationOptions& options,
+                       const ProgressOf& progress_of) {
+  const std::size_t first = model.model.modes.size();
+  const std::size_t end = model.whole->modes.size();
+  const auto progress = progress_of(fmt::format("{}, further modes", run.id), end - first);
+  for (std::size_t mode = first; mode < end; ++mode) {
+    response::add_readings_of_mode(run.simulation.channels, *model.whole, mode, sensors,
+                                   run.simulation.hub_torque_N_m, options.sample_time_s,
+                                   options.hold);
+    if (!progress(static_cast<double>(mode + 1 - first) / static_cast<double>(end - first))) {
+      throw arm::Cancelled{};
+    }
+  }
+}
 
 /// Simulates a run that has its torque, or its loop.
 void step(SimulatedRun& run, const PayloadModel& model, const std::vector<arm::Sensor>& sensors,
@@ -95,16 +133,10 @@ void step(SimulatedRun& run, const PayloadModel& model, const std::vector<arm::S
     run.simulation = response::simulate(model.model, model.parts, sensors, torque_N_m, options,
                                         std::ref(progress));
   }
-  if (!run.simulation.summary.completed) throw ExperimentCancelled{};
-  if (!compares_steps) return;
-  const auto finer =
-      progress_of(fmt::format("{} in smaller steps, samples", run.id), torque_N_m.size());
-  run.step_error = response::check_step(run.simulation, model.model, model.parts, sensors,
-                                        torque_N_m, options, finer)
-                       .relative_difference;
-  if (run.step_error.empty() && !sensors.empty()) throw ExperimentCancelled{};
+  if (!run.simulation.summary.completed) throw arm::Cancelled{};
+  if (compares_steps) compare_steps(run, model, sensors, options, progress_of);
+  if (model.whole) add_further_modes(run, model, sensors, options, progress_of);
 }
-
 /// The random streams of a run begin here.
 std::uint32_t first_stream(std::size_t run) {
   return 1 + kStreamsOfARun * static_cast<std::uint32_t>(run);
@@ -165,7 +197,7 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
                                     frequencies_Hz(*plan.stepped_sine).size());
   run.measured = response::measure_stepped_sine(model.model, model.parts, run.sensors,
                                                 *plan.stepped_sine, stepping, progress);
-  if (!run.measured.summary.completed) throw ExperimentCancelled{};
+  if (!run.measured.summary.completed) throw arm::Cancelled{};
   return run;
 }
 
@@ -173,7 +205,9 @@ SteppedSineRun stepped_run(const PlannedRun& plan, std::size_t index, const arm:
 
 void require_valid(const ExperimentOptions& options, const std::vector<PlannedRun>& plan,
                    const std::vector<ChosenSensor>& sensors, const arm::OptionSpelling& spelled) {
-  if (options.modes < 1) throw arm::out_of_range(spelled("modes"), options.modes, "", "1 or more");
+  if (options.modes && *options.modes < 1) {
+    throw arm::out_of_range(spelled("modes"), *options.modes, "", "1 or more");
+  }
   if (options.substeps < 0 || options.substeps > response::kMostSubsteps) {
     throw arm::out_of_range(spelled("substeps"), options.substeps, "",
                             fmt::format("from 0 to {}", response::kMostSubsteps));
@@ -218,7 +252,16 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
                                         const ProgressOf& progress_of) {
   const auto sensors = sensors_of(chosen);
   SimulatedExperiment experiment;
-  Models models(arm, sensors, options, experiment);
+  experiment.sensors = sensors;
+  ModeChoice choice;
+  try {
+    choice = choose_modes(arm, runs, sensors, options, progress_of);
+  } catch (const arm::Cancelled&) {
+    experiment.cancelled = true;
+    return experiment;
+  }
+  experiment.truncation = choice.truncation;
+  Models models(arm, sensors, options, choice, experiment);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const PlannedRun& plan = runs[i];
     const arm::Payload payload = plan.payload.value_or(arm.payload);
@@ -230,8 +273,9 @@ SimulatedExperiment simulate_experiment(const arm::Arm& arm, const std::vector<P
       } else {
         experiment.runs.push_back(
             run_in_time(plan, i, payload, model, chosen, options, progress_of));
+        experiment.runs.back().truncation = experiment.truncation;
       }
-    } catch (const ExperimentCancelled&) {
+    } catch (const arm::Cancelled&) {
       experiment.cancelled = true;
       return experiment;
     } catch (const arm::InputError& error) {

@@ -5,6 +5,7 @@
 #include "response/formulation_choice.hpp"
 #include "response/time/simulation.hpp"
 #include "response/time/stepped_sine_response.hpp"
+#include "response/truncation.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +33,7 @@ struct SimulatedRun {
                                    ///< over the largest size; empty when not asked for
   std::optional<arm::Controller> controller = {};  ///< of a closed loop; its excitation is the
                                                    ///< record's reference
+  response::Truncation truncation = {};            ///< SimulatedExperiment::truncation
 };
 
 /// A run of a simulated experiment that measured a frequency response sine by sine.
@@ -46,7 +48,7 @@ struct SteppedSineRun {
 /// How an experiment is simulated.
 struct ExperimentOptions {
   response::FormulationChoice formulation;
-  int modes = 5;
+  std::optional<int> modes = {};  ///< flexible ones; empty: chosen (response/truncation.hpp)
   bool static_correction = false;
   response::TorqueHold hold = response::TorqueHold::zero;
   int substeps = 0;
@@ -56,9 +58,12 @@ struct ExperimentOptions {
 
 /// The runs of an experiment on one arm, and the model that they were simulated with.
 struct SimulatedExperiment {
-  std::string model;           ///< "exact_tf"
-  std::string settings;        ///< empty for exact_tf
-  int modes = 0;               ///< flexible ones kept
+  std::string model;     ///< "exact_tf"
+  std::string settings;  ///< empty for exact_tf
+  int modes = 0;         ///< flexible ones kept
+  /// The largest errors of all runs; one a sensor of the experiment.
+  response::Truncation truncation = {};
+  std::vector<arm::Sensor> sensors = {};
   int degrees_of_freedom = 0;  ///< of the model; 0 for exact_tf
   std::vector<SimulatedRun> runs;
   std::vector<SteppedSineRun> stepped_runs;  ///< those of the plan that are stepped sines

@@ -1,6 +1,7 @@
 #include "measured/run_identification.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/free_decay.hpp"
 #include "measured/modal/response_fit.hpp"
 #include "measured/modal/start_spectra.hpp"
 
@@ -24,6 +25,8 @@ constexpr double kGap = 8.0;
 constexpr double kWindowLines = 2.0;
 /// Damping ratio above which a fitted zero is no antiresonance.
 constexpr double kMostZeroDamping = 0.25;
+/// Standard errors by which a damping ratio below 0 is no undamped mode's.
+constexpr double kSurelyBelow = 3.0;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
 constexpr double kSpectraShare = 0.2;
 
@@ -59,12 +62,33 @@ PeakSettings driven_peaks(PeakSettings peaks, const TimeRecord& record,
   return peaks;
 }
 
+/// Keeps what follows the release: any later sample begins a free decay as well, one before the
+/// release does not.
+void keep_decay(TimeRecord& record, RunIdentification& made) {
+  const std::size_t begin = begin_of_decay(record);
+  made.decay_begins_s = record.time_s[begin];
+  made.left_out_before_decay = begin;
+  made.hub_at_rest = std::ranges::any_of(made.left_out, arm::is_collocated);
+  const auto cut = [begin](std::vector<double>& values) {
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  cut(record.time_s);
+  cut(record.torque_N_m);
+  if (!record.reference.values.empty()) cut(record.reference.values);
+  for (Channel& channel : record.channels) cut(channel.values);
+}
+
 void study_time_run(TimeRecord& record, const IdentificationOptions& options,
                     RunIdentification& made) {
   made.left_out = leave_out_dead_channels(record, made.findings);
   const auto no_torque = std::ranges::find(made.findings, Fault::zero_torque, &DataFinding::fault);
   if (record.channels.empty()) {
     made.refusal = made.left_out.empty() ? "no sensor was measured" : "every channel is dead";
+    return;
+  }
+  made.sampling_period_s = sampling_period_s(record);
+  if (made.run.initial == InitialState::free && is_zero(record.torque_N_m) && !options.input) {
+    keep_decay(record, made);
     return;
   }
   SpectrumSettings spectrum = options.spectrum;
@@ -212,7 +236,7 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
     const auto& estimate = studied[r].estimate;
     const bool of_responses = estimate && is_fitted_by_responses(*estimate);
     const auto group = std::ranges::find_if(groups, [&](const RunsFit& fitted) {
-      return !of_responses && !fitted.of_responses &&
+      return !of_responses && !fitted.of_responses && fitted.hub_held == studied[r].hub_held() &&
              fit_together(runs[fitted.runs.front()], runs[r]);
     });
     if (group == groups.end()) {
@@ -225,6 +249,26 @@ std::vector<RunsFit> group_runs(const std::vector<MeasuredRun>& runs,
     }
   }
   return groups;
+}
+
+/// A hub at rest has been left out as a dead channel.
+bool has_hub_sensor(const std::vector<TimeRecord>& records) {
+  return std::ranges::any_of(records, [](const TimeRecord& record) {
+    return std::ranges::any_of(
+        record.channels, [](const Channel& channel) { return arm::is_collocated(channel.sensor); });
+  });
+}
+
+/// The mode that grows most surely; empty where none does.
+std::string growth_of(const ModalFit& fit) {
+  for (const FittedPole& pole : fit.poles) {
+    if (!pole.is_mode || !(pole.damping_ratio < -kSurelyBelow * pole.damping_ratio_std)) continue;
+    return fmt::format(
+        "the damping ratio at {:.4g} Hz is {:.2g} +- {:.1g}, below 0: a motion that "
+        "grows",
+        pole.frequency_Hz, pole.damping_ratio, pole.damping_ratio_std);
+  }
+  return "";
 }
 
 /// Moves the records out of the runs: a run is in one fit.
@@ -245,11 +289,20 @@ void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs,
       records.push_back(std::move(std::get<TimeRecord>(runs[r].data)));
       own.initial.push_back(runs[r].run.initial);
     }
+    const bool decays = std::ranges::all_of(
+        fitted.runs, [&](std::size_t r) { return studied[r].decay_begins_s.has_value(); });
+    own.rigid_body = own.rigid_body && (!decays || has_hub_sensor(records));
     fitted.fit = fit_modes(records, own);
+    if (decays && std::ranges::none_of(fitted.fit.poles, &FittedPole::is_mode)) {
+      throw arm::InputError("no oscillation that decays is above the noise");
+    }
   }
-  if (fitted.fit.cancelled || fitted.hub_held) return;
+  fitted.unphysical = growth_of(fitted.fit);
+  if (fitted.fit.cancelled || fitted.hub_held || fitted.fit.free_decay) return;
   try {
     fitted.gains = modal_gains(fitted.fit, total_inertia_kg_m2);
+  } catch (const UnphysicalInertia& error) {
+    fitted.unphysical = error.what();
   } catch (const arm::InputError& error) {
     fitted.gains_refusal = error.what();
   }
@@ -261,6 +314,17 @@ std::string_view to_string(Method method) {
   constexpr std::array<std::string_view, 5> kNames = {"autopower", "response", "circle", "fit",
                                                       "table"};
   return kNames.at(static_cast<std::size_t>(method));
+}
+
+std::string doubt_of(const RunsFit& fit) {
+  if (!fit.refusal.empty()) return "";
+  if (!fit.fit.converged) {
+    return fmt::format(
+        "the fit did not converge in {} iterations; the model order may be too high "
+        "for these data{}",
+        fit.fit.iterations, fit.unphysical.empty() ? "" : ", and " + fit.unphysical);
+  }
+  return fit.unphysical.empty() ? "" : "the fit is unphysical: " + fit.unphysical;
 }
 
 Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptions& options) {

@@ -56,6 +56,12 @@ struct RunIdentification {
   std::string refusal = {};                ///< why nothing could be estimated; empty where it was
   std::vector<DataFinding> findings = {};  ///< faults of a `time` run
   std::vector<arm::Sensor> left_out = {};  ///< dead channels, which nothing is estimated from
+  double sampling_period_s = 0.0;          ///< of a `time` run
+  /// Of a `time` run that starts free, without a torque, the time of its release; a fit alone says
+  /// something of it.
+  std::optional<double> decay_begins_s = {};
+  std::size_t left_out_before_decay = 0;  ///< samples
+  bool hub_at_rest = false;               ///< of a decay: a sensor of the hub shows no motion
   /// Of a `frf` run as it is, of a `time` run as estimated, from the torque or the hub's motion.
   FrequencyRecord response = {};
   std::optional<FrequencyResponseEstimate> estimate = {};  ///< of a `time` run
@@ -63,8 +69,11 @@ struct RunIdentification {
   std::vector<SensorCircles> circles = {};
   std::optional<Distortion> distortion = {};  ///< where the torque repeats itself, in open loop
 
-  /// Whether responses are those to the hub's motion.
-  bool hub_held() const { return estimate && estimate->settings.estimator.hub_held(); }
+  /// Whether poles are those with the hub held: of responses to its motion, and of a decay while it
+  /// rests.
+  bool hub_held() const {
+    return hub_at_rest || (estimate && estimate->settings.estimator.hub_held());
+  }
 };
 
 /// A rational fit of runs with one payload, torque hold and sampling period, of one `frf` run, or
@@ -74,11 +83,16 @@ struct RunsFit {
   std::optional<arm::Payload> payload = {};
   std::string refusal = {};  ///< why there is no fit; empty where there is
   ModalFit fit = {};
-  bool of_responses = false;  ///< measured/modal/response_fit.hpp; else sample by sample
-  bool hub_held = false;      ///< of responses to the hub's motion: no gains
+  std::string unphysical = {};  ///< what of the fit no arm can be; empty where nothing is
+  bool of_responses = false;    ///< measured/modal/response_fit.hpp; else sample by sample
+  bool hub_held = false;        ///< `RunIdentification::hub_held`: no gains
   std::optional<ModalGains> gains = {};
   std::string gains_refusal = {};
 };
+
+/// Why the poles and zeros of a fit are not to be relied on: it did not converge, or is unphysical.
+/// Empty where neither is so, or there is no fit.
+std::string doubt_of(const RunsFit& fit);
 
 struct Identification {
   std::vector<RunIdentification> runs;  ///< as they were given

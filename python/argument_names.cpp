@@ -10,6 +10,7 @@ std::string as_argument(std::string_view option) {
       {"duration", "duration_s"},
       {"overlap", "overlap_percent"},
       {"order", "highest_order"},
+      {"payload-inertia", "payload_inertia_kg_m2"},
       {"payload-mass", "payload_mass_kg"},
       {"period", "sample_time_s"},
       {"resolution", "resolution_Hz"},

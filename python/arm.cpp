@@ -40,6 +40,16 @@ std::string unit_in_name(std::string_view unit) {
   return name;
 }
 
+arm::Arm arm_of(const py::object& arm) {
+  if (py::isinstance<arm::Arm>(arm)) return arm.cast<arm::Arm>();
+  if (py::isinstance<py::str>(arm) || py::hasattr(arm, "__fspath__")) {
+    return measured::read_arm_file(arm.cast<std::filesystem::path>(), effects::vocabulary());
+  }
+  throw py::type_error(
+      fmt::format("arm: {}; must be an Arm or the path of an arm file",
+                  std::string(py::str(py::type::handle_of(arm).attr("__name__")))));
+}
+
 std::vector<arm::Sensor> sensors_of(const py::object& names) {
   if (py::isinstance<py::str>(names)) return {arm::parse_sensor(names.cast<std::string>())};
   std::vector<arm::Sensor> sensors;
@@ -79,7 +89,13 @@ void set_numbers(arm::Arm& arm, const py::kwargs& numbers) {
                                         arm::shown(name), arm::did_you_mean(name, names),
                                         fmt::join(names, ", ")));
     }
-    key->set(arm, value.cast<double>());
+    if (value.is_none()) continue;
+    try {
+      key->set(arm, value.cast<double>());
+    } catch (const py::cast_error&) {
+      throw py::type_error(fmt::format("{} = {}: must be a number [{}]", name,
+                                       std::string(py::repr(value)), key->unit));
+    }
   }
 }
 
@@ -185,6 +201,23 @@ void add_arm_numbers(py::module_& module) {
   module.def("arm_numbers", &arm_numbers, "The numbers of an arm, a list of ArmNumber.");
 }
 
+/// "beam_length_m=None, ...": the numbers as keywords of a signature.
+std::string number_keywords() {
+  std::vector<std::string> names;
+  for (const auto& key : arm::arm_keys()) names.push_back(attribute_of(key) + "=None");
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// "  beam_length_m: length [m], above 0", a line each.
+std::string number_texts() {
+  std::string text;
+  for (const auto& key : arm::arm_keys()) {
+    text += fmt::format("  {}: {} [{}], {}\n", attribute_of(key), key.meaning, key.unit,
+                        arm::to_string(key.range));
+  }
+  return text;
+}
+
 template <class Class>
 void add_numbers(Class& type) {
   for (const auto& key : arm::arm_keys()) {
@@ -200,13 +233,16 @@ void add_arm(py::module_& module) {
   using arm::Arm;
   py::class_<Arm> type(
       module, "Arm",
-      "A single-link flexible manipulator: a uniform beam turned about its root by a motor, with a "
-      "payload at its tip.\n\n"
-      "Arm(name='', **numbers): the numbers are those of an arm file with their table and unit, "
-      "beam_length_m=0.7; docs/formats.md lists them. An arm does not change: with_ and "
-      "with_effect return another. Raises InputError for a number that is missing, out of its "
-      "range or does not fit the others.");
-  type.def(py::init(&made), py::arg("name") = "")
+      ("A single-link flexible manipulator: a uniform beam turned about its root by a motor, with "
+       "a "
+       "payload at its tip. An arm does not change: with_ and with_effect return another.\n\n"
+       "Arguments, the numbers of an arm file (docs/formats.md); None: not given:\n"
+       "  name: its name\n" +
+       number_texts() +
+       "\nRaises InputError for a number that is missing, out of its range or does not fit the "
+       "others.")
+          .c_str());
+  type.def(py::init(&made), py::arg("name") = "", (number_keywords() + "\n--\n\n").c_str())
       .def_static("paper", &arm::paper_arm, "The arm of the paper's Table 1: an aluminium link.")
       .def_static(
           "from_toml",
@@ -214,27 +250,41 @@ void add_arm(py::module_& module) {
             return measured::parse_arm(text, "<string>", effects::vocabulary());
           },
           py::arg("text"),
-          "The arm of the text of an arm file. Raises InputError with '<string>:LINE: ' in front.")
+          "The arm of the text of an arm file. Raises InputError with '<string>:LINE: ' in "
+          "front.\n\n"
+          "Arguments:\n  text: that of an arm file")
       .def(
           "to_toml", &measured::format_arm,
           "The arm as the text of an arm file; from_toml reads the same arm back, every number bit "
           "for bit.")
       .def("write", &measured::write_arm_file, py::arg("path"),
-           "Writes an arm file, whole or not at all. Raises InputError where it cannot be written.")
-      .def("with_", &with_numbers, py::arg("name") = py::none(),
-           "The arm with other numbers: arm.with_(payload_mass_kg=0.05). Raises InputError as "
-           "Arm().")
-      .def("with_effect", &with_effect, py::arg("effect"), py::arg("sensor") = "",
-           "The arm with an effect: arm.with_effect('root_compliance', stiffness=30.0). Parameters "
-           "have the names and units of docs/effects.md; those that are not given keep the value "
-           "that the arm has, or their default. `sensor` is for an effect on one sensor. Raises "
-           "InputError for an unknown effect or parameter, and a value out of its range.")
+           "Writes an arm file, whole or not at all. Raises InputError where it cannot be "
+           "written.\n\n"
+           "Arguments:\n  path: that of the file")
+      .def(
+          "with_", &with_numbers, py::arg("name") = py::none(),
+          (number_keywords() +
+           "\n--\n\nThe arm with other numbers: arm.with_(payload_mass_kg=0.05). Raises InputError "
+           "as Arm().\n\nArguments:\n  name: its name; None: as it is\n" +
+           number_texts())
+              .c_str())
+      .def(
+          "with_effect", &with_effect, py::arg("effect"), py::arg("sensor") = "",
+          "**parameters\n--\n\nThe arm with an effect: "
+          "arm.with_effect('root_compliance', stiffness=30.0). Raises InputError for an unknown "
+          "effect or parameter, and a value out of its range.\n\n"
+          "Arguments:\n  effect: its name\n"
+          "  sensor: name of the sensor that it acts on, where it acts on one\n"
+          "  **parameters: numbers with the names and units of docs/effects.md; those that are not "
+          "given keep the value that the arm has, or their default")
       .def("without_effect", &without_effect, py::arg("effect"),
-           "The arm without an effect that it has. Raises InputError where it has not.")
+           "The arm without an effect that it has. Raises InputError where it has not.\n\n"
+           "Arguments:\n  effect: its name")
       .def("with_uncertainties", &with_uncertainties, py::arg("relative"),
            "The arm with relative standard deviations of numbers, by their key in an arm file: "
            "{'hub.inertia': 0.05}. A diagnosis refits such numbers. Raises InputError for "
-           "an unknown key and a value that is not above 0.")
+           "an unknown key and a value that is not above 0.\n\nArguments:\n"
+           "  relative: a dict of standard deviations relative to the numbers [1]")
       .def_property_readonly(
           "name", [](const Arm& arm) { return arm.name; }, "Its name.")
       .def_property_readonly(
@@ -264,10 +314,6 @@ void add_arm(py::module_& module) {
       .def(py::self == py::self)
       .def("__hash__", [](const Arm& arm) { return py::hash(py::str(measured::format_arm(arm))); })
       .def("__repr__", &arm_text)
-      .def("_repr_html_",
-           [](const py::object& self) {
-             return py::module_::import("flexarm._html").attr("arm_table")(self);
-           })
       .def(py::pickle(&measured::format_arm, [](const std::string& text) {
         return measured::parse_arm(text, "<pickle>", effects::vocabulary());
       }));
@@ -280,7 +326,8 @@ void add_arm(py::module_& module) {
       },
       py::arg("path"),
       "Reads an arm file (TOML, docs/formats.md). Raises InputError 'FILE:LINE: ...' for a file "
-      "that cannot be read, and for an arm that no formulation takes.");
+      "that cannot be read, and for an arm that no formulation takes.\n\nArguments:\n"
+      "  path: that of the file");
 }
 
 }  // namespace flexarm::python

@@ -12,6 +12,10 @@ namespace flexarm::python {
 /// A unit as part of a name: "N m s/rad" is "N_m_s_per_rad", "kg m^2" is "kg_m2".
 std::string unit_in_name(std::string_view unit);
 
+/// An arm that is given, or that of the path of an arm file. Throws arm::InputError as its reader,
+/// and py::type_error, one line, for any other object.
+arm::Arm arm_of(const pybind11::object& arm);
+
 /// The sensors of a sequence of names, or of one name. Throws arm::InputError as parse_sensor.
 std::vector<arm::Sensor> sensors_of(const pybind11::object& names);
 

@@ -1,6 +1,7 @@
 #include "arm/controller.hpp"
 #include "arm/input_error.hpp"
 #include "measured/files/controller_keys.hpp"
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/module.hpp"
 
@@ -52,22 +53,32 @@ void add_controllers(py::module_& module) {
       .def_static("pid", &pid, py::arg("kp") = 0.0, py::arg("kd") = 0.0, py::arg("ki") = 0.0,
                   py::kw_only(), py::arg("sensor") = "hub_angle", py::arg("derivative") = "error",
                   py::arg("limit_N_m") = py::none(), py::arg("sample_time_s") = py::none(),
-                  "Discrete PID of one sensor: gains in N m, N m s and N m/s per unit of the "
-                  "sensor, torque "
-                  "limit [N m], period [s] (None: that of the record). Raises InputError for "
-                  "numbers out of "
-                  "range.")
+                  "Discrete PID of one sensor. Raises InputError for numbers out of range.\n\n"
+                  "Arguments:\n"
+                  "  kp: gain [N m per unit of the sensor]\n"
+                  "  kd: gain [N m s per unit of the sensor]\n"
+                  "  ki: gain [N m/s per unit of the sensor]\n"
+                  "  sensor: its name\n"
+                  "  derivative: of the 'error' or the 'measurement'\n"
+                  "  limit_N_m: of the torque [N m]; None: none\n"
+                  "  sample_time_s: period [s]; None: that of the record")
       .def_static("state_space", &state_space, py::arg("A"), py::arg("B"), py::arg("C"),
                   py::arg("D"), py::kw_only(), py::arg("sensors") = "hub_angle",
                   py::arg("limit_N_m") = py::none(), py::arg("sample_time_s") = py::none(),
-                  "u_k = C x_k + D w_k, x_(k+1) = A x_k + B w_k with w = (reference, sensors); "
-                  "matrices by rows: A (n, n), B (n, 1 + sensors), C (1, n), D (1, 1 + sensors). "
-                  "Raises InputError for matrices that do not fit together.")
-      .def_static("read", &measured::read_controller_file, py::arg("path"),
-                  "Reads a controller file (TOML, docs/formats.md). Raises InputError.")
+                  "u_k = C x_k + D w_k, x_(k+1) = A x_k + B w_k with w = (reference, sensors). "
+                  "Raises InputError for matrices that do not fit together.\n\nArguments:\n"
+                  "  A: matrix by rows, (n, n)\n  B: (n, 1 + sensors)\n  C: (1, n)\n"
+                  "  D: (1, 1 + sensors)\n  sensors: names\n"
+                  "  limit_N_m: of the torque [N m]; None: none\n"
+                  "  sample_time_s: period [s]; None: that of the record")
+      .def_static(
+          "read", &measured::read_controller_file, py::arg("path"),
+          "Reads a controller file (TOML, docs/formats.md). Raises InputError.\n\nArguments:\n"
+          "  path: its path")
       .def("__repr__", [](const arm::Controller& controller) {
         return fmt::format("<flexarm.Controller {}>", measured::format_controller(controller));
       });
+  add_pickle<arm::Controller>();
 }
 
 }  // namespace flexarm::python

@@ -2,9 +2,11 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/diagnosis_request.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
 #include "python/arrays.hpp"
 #include "python/long_call.hpp"
+#include "python/measurements.hpp"
 #include "python/module.hpp"
 #include "report/figures/diagnosis_figures.hpp"
 #include "report/figures/figure_files.hpp"
@@ -48,10 +50,10 @@ struct RunOverlay {
   diagnose::Overlay overlay;
 };
 
-Diagnosed diagnose_file(const std::filesystem::path& path, const Texts& effects,
-                        const Texts& exclude, const Texts& accept,
-                        std::optional<double> time_limit_s, int max_causes,
-                        const std::string& predictor, const py::object& progress) {
+Diagnosed diagnose_measurement(const py::object& measurement, const Texts& effects,
+                               const Texts& exclude, const Texts& accept,
+                               std::optional<double> time_limit_s, int max_causes,
+                               const std::string& predictor, const py::object& progress) {
   const auto begun = std::chrono::steady_clock::now();
   const diagnose::DiagnosisRequest request{.effects = effects,
                                            .excluded = exclude,
@@ -60,9 +62,10 @@ Diagnosed diagnose_file(const std::filesystem::path& path, const Texts& effects,
                                            .most_causes = max_causes,
                                            .predictor = predictor,
                                            .spelled = as_argument};
+  const MeasurementSource source = measurement_source(measurement);
   return long_call("diagnosis", progress, [&](CallState& state) {
     const auto deadline = diagnose::deadline_of(request, begun);
-    Diagnosed diagnosed{diagnose::read_experiment(path, request), {}};
+    Diagnosed diagnosed{diagnose::experiment_of(recording_of(source), request, deadline), {}};
     diagnosed.diagnosis =
         diagnose::diagnose(diagnosed.experiment, request, deadline,
                            [&](std::string_view, double done) { return state.reach(done); });
@@ -247,14 +250,8 @@ void add_diagnosis(py::module_& module) {
             return report::diagnosis_document(self.diagnosis, extended_arm);
           },
           py::arg("extended_arm") = "",
-          "The text that `flexarm diagnose --json` writes (docs/json.md), with the name of the "
-          "file that holds the extended arm; '': null.")
-      .def(
-          "to_dict",
-          [](const py::object& self) {
-            return py::module_::import("json").attr("loads")(self.attr("to_json")());
-          },
-          "The same as a dict.")
+          "The text that `flexarm diagnose --json` writes (docs/json.md).\n\nArguments:\n"
+          "  extended_arm: name of the file that holds the extended arm; '': null")
       .def(
           "write_json",
           [](const Diagnosed& self, const std::filesystem::path& path) {
@@ -262,26 +259,35 @@ void add_diagnosis(py::module_& module) {
           },
           py::arg("path"),
           "Writes the files of `flexarm diagnose --json PATH`: the JSON and, beside it, the "
-          "extended arm. Raises InputError where they cannot be written.")
-      .def("_repr_html_",
-           [](const py::object& self) {
-             return py::module_::import("flexarm._html").attr("diagnosis_summary")(self);
-           })
+          "extended arm. Raises InputError where they cannot be written.\n\nArguments:\n"
+          "  path: that of the JSON file")
       .def("__repr__", [](const Diagnosed& self) {
         Texts causes;
         for (const auto& cause : self.diagnosis.causes) causes.push_back(cause.effect);
         return fmt::format("<flexarm.Diagnosis {}{}{}>", to_string(self.diagnosis.verdict),
                            causes.empty() ? "" : ": ", fmt::join(causes, ", "));
       });
-  module.def("diagnose", &diagnose_file, py::arg("path"), py::kw_only(),
+  module.def("diagnose", &diagnose_measurement, py::arg("measurement"), py::kw_only(),
              py::arg("effects") = Texts{}, py::arg("exclude") = Texts{},
              py::arg("accept") = Texts{}, py::arg("time_limit_s") = py::none(),
              py::arg("max_causes") = diagnose::SelectionOptions{}.most_causes,
              py::arg("predictor") = "auto", py::arg("progress") = py::none(),
-             "Names the causes of the differences between the simulation of a measurement.toml's "
-             "arm file and its data, with the arguments of `flexarm diagnose`: Diagnosis. progress "
-             "as in simulate. Ctrl-C ends it. Raises InputError 'FILE:LINE: ...', and for an "
-             "argument that cannot be used.");
+             "Names the causes of the differences between the simulation of an arm and its "
+             "measured data, as `flexarm diagnose` does: Diagnosis. Ctrl-C ends it.\n\n"
+             "Arguments:\n"
+             "  measurement: a Measurement, or the path of a measurement.toml\n"
+             "  effects: names of the effects to test, a list ([]: all of the library)\n"
+             "  exclude: effects that are not tested, 'NAME' or 'NAME on SENSOR', a list\n"
+             "  accept: data checks whose faults count as none, a list of their names\n"
+             "  time_limit_s: time after which the search ends [s] (None: no limit)\n"
+             "  max_causes: most causes that are named together\n"
+             "  predictor: how time runs are predicted, 'auto' or a name of docs/diagnosis.md "
+             "('auto')\n"
+             "  progress: a callable of the fraction done, None for a line on a terminal or in a "
+             "notebook, False for none\n\n"
+             "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an "
+             "argument, which its line begins with.");
+  add_pickle<ParameterEstimate, Cause, RefittedNumber, Gain, RunOverlay, Symptom, Diagnosed>();
 }
 
 }  // namespace flexarm::python

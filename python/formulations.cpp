@@ -93,14 +93,16 @@ void add_base(py::module_& module) {
           [](const Formulation& self, int count) {
             return response::poles(self.formulation, count);
           },
-          py::arg("count") = kModes, WithoutLock(), "The lowest undamped flexible poles: Poles.")
+          py::arg("count") = kModes, WithoutLock(),
+          "The lowest undamped flexible poles: Poles.\n\nArguments:\n  count: how many, 1 or more")
       .def(
           "damped_poles",
           [](const Formulation& self, int count) {
             return response::damped_poles(self.formulation, count);
           },
           py::arg("count") = kModes, WithoutLock(),
-          "The poles with all linear damping: DampedPoles.")
+          "The poles with all linear damping: DampedPoles.\n\nArguments:\n  count: of pairs, 1 or "
+          "more")
       .def(
           "zeros",
           [](const Formulation& self, const std::string& sensor_name, int count) {
@@ -108,7 +110,8 @@ void add_base(py::module_& module) {
             return SensorZeros{sensor, response::zeros(self.formulation, sensor, count)};
           },
           py::arg("sensor"), py::arg("count") = kModes, WithoutLock(),
-          "The zeros of torque to a sensor ('hub_angle', 'strain@0.05') smallest in |s|: Zeros.")
+          "The zeros of torque to a sensor that are smallest in |s|: Zeros.\n\nArguments:\n"
+          "  sensor: its name, 'hub_angle', 'strain@0.05'\n  count: how many, 1 or more")
       .def(
           "modes",
           [](const Formulation& self, int count, const py::object& sensors,
@@ -121,12 +124,15 @@ void add_base(py::module_& module) {
           py::arg("count") = kModes, py::arg("sensors") = py::tuple(),
           py::arg("stations_m") = py::tuple(),
           "The lowest (rigid-body) mode and `count` flexible ones with their values at sensors and "
-          "at places along the beam [m]: Modes.")
+          "at places along the beam: Modes.\n\nArguments:\n"
+          "  count: of flexible modes\n  sensors: names of sensors\n"
+          "  stations_m: distances from the motor axis [m], array (stations,)")
       .def("transfer_function", &transfer_function, py::arg("sensor"), py::arg("s_rad_per_s"),
            "Response of a sensor per torque on the hub at complex frequencies s [rad/s], damping "
            "included: complex array of the shape of s, or a number, in the unit of the sensor per "
            "N m. Raises ValueError at s = 0 of an arm with a free hub. Near a pole it is huge or "
-           "not finite.")
+           "not finite.\n\nArguments:\n  sensor: its name\n"
+           "  s_rad_per_s: s [rad/s], complex, of any shape")
       .def(
           "frequency_response",
           [](const Formulation& self, const py::object& sensors, const Numbers& frequency_Hz,
@@ -141,23 +147,30 @@ void add_base(py::module_& module) {
           py::arg("from_Hz") = py::none(), py::arg("to_Hz") = py::none(),
           py::arg("points") = kPoints, py::arg("modes") = kModes,
           "Readings per commanded torque at ascending frequencies [Hz], array (frequencies,): "
-          "FrequencyResponse, with the linear effects of torque path and sensors. Without "
-          "frequencies it takes those of `flexarm response`: `points` from below the first pole to "
-          "above the last of `modes` poles, more around poles and zeros. sensors=None: hub_angle "
-          "and, with a beam, tip_acceleration.")
+          "FrequencyResponse, with the linear effects of torque path and sensors.\n\nArguments:\n"
+          "  sensors: names; None: hub_angle and, with a beam, tip_acceleration\n"
+          "  frequency_Hz: f [Hz], array (frequencies,); none: those of `flexarm response`, more "
+          "around poles and zeros\n"
+          "  from_Hz: lowest of those [Hz]; None: below the first pole\n"
+          "  to_Hz: highest of those [Hz]; None: above the last of `modes` poles\n"
+          "  points: how many, at least\n"
+          "  modes: poles that the frequencies cover")
       .def(
           "state_space",
-          [](const Formulation& self, const py::object& sensors, int modes,
+          [](const Formulation& self, const py::object& sensors, std::optional<int> modes,
              bool static_correction) {
             const auto chosen = sensors_or_default(sensors, self.arm);
             const py::gil_scoped_release without_lock;
             return state_space_of(self, chosen, modes, static_correction);
           },
-          py::arg("sensors") = py::none(), py::kw_only(), py::arg("modes") = kModes,
+          py::arg("sensors") = py::none(), py::kw_only(), py::arg("modes") = py::none(),
           py::arg("static_correction") = true,
-          "Commanded torque [N m] to sensors as StateSpace, of the lowest mode and `modes` "
-          "flexible "
-          "ones, with a residual mode for the omitted ones where `static_correction` asks for it.")
+          "Commanded torque [N m] to sensors as StateSpace, of the lowest mode and some flexible "
+          "ones.\n\nArguments:\n"
+          "  sensors: names; None: hub_angle and, with a beam, tip_acceleration\n"
+          "  modes: flexible modes; None: as many as keep truncation_errors below 1e-4, 160 at "
+          "most\n"
+          "  static_correction: whether a residual mode stands for the omitted ones")
       .def("__repr__", [](const py::object& self) {
         const auto& formulation = self.cast<const Formulation&>();
         return fmt::format(
@@ -188,29 +201,34 @@ void add_formulations(py::module_& module) {
   py::class_<ExactTransferFunction, Formulation>(
       module, "ExactTransferFunction",
       "The exact transcendental transfer function (exact_tf): its roots are counted and found to "
-      "rounding. Raises InputError for an arm that it does not take.")
+      "rounding. Raises InputError for an arm that it does not take.\n\nArguments:\n  arm: the Arm")
       .def(py::init<const arm::Arm&>(), py::arg("arm"), WithoutLock());
   py::class_<FiniteElements, Formulation>(
       module, "FiniteElements",
-      "Euler-Bernoulli finite elements (fem): `elements` of Hermite shape functions of `degree` (3 "
-      "to 25). Without them settings at which the lowest `roots` poles and zeros are within 1e-10 "
-      "or so of exact. Raises InputError for an arm or a setting that it does not take.")
+      "Euler-Bernoulli finite elements of Hermite shape functions (fem). Raises InputError for an "
+      "arm or a setting that it does not take.\n\nArguments:\n  arm: the Arm\n"
+      "  elements: number of elements; None: by `roots`\n"
+      "  degree: of the shape functions, 3 to 25; None: by `roots`\n"
+      "  roots: number of poles and zeros that the settings keep within 1e-10 or so of exact")
       .def(py::init<const arm::Arm&, std::optional<int>, std::optional<int>, int>(), py::arg("arm"),
            py::kw_only(), py::arg("elements") = py::none(), py::arg("degree") = py::none(),
            py::arg("roots") = kRoots, WithoutLock());
   py::class_<AssumedModes, Formulation>(
       module, "AssumedModes",
-      "Lagrange's equations on admissible functions (assumed_modes): `functions` of a `basis` "
-      "('legendre', 'clamped_free', 'pinned_free', 'clamped_with_payload'). Without them settings "
-      "at which the lowest `roots` poles and zeros are within 1e-10 or so of exact. Raises "
-      "InputError for an arm or a setting that it does not take.")
+      "Lagrange's equations on admissible functions (assumed_modes). Raises InputError for an arm "
+      "or "
+      "a setting that it does not take.\n\nArguments:\n  arm: the Arm\n"
+      "  functions: number of functions; None: by `roots`\n"
+      "  basis: 'legendre', 'clamped_free', 'pinned_free' or 'clamped_with_payload'; None: "
+      "legendre\n"
+      "  roots: number of poles and zeros that the settings keep within 1e-10 or so of exact")
       .def(py::init<const arm::Arm&, std::optional<int>, const std::optional<std::string>&, int>(),
            py::arg("arm"), py::kw_only(), py::arg("functions") = py::none(),
            py::arg("basis") = py::none(), py::arg("roots") = kRoots, WithoutLock());
   py::class_<RigidHub, Formulation>(
       module, "RigidHub",
       "An arm without a beam, in closed form: one mode, no flexible poles, no zeros. Raises "
-      "InputError for an arm with a beam.")
+      "InputError for an arm with a beam.\n\nArguments:\n  arm: the Arm")
       .def(py::init<const arm::Arm&>(), py::arg("arm"), WithoutLock());
 }
 

@@ -3,13 +3,16 @@
 #include "arm/input_error.hpp"
 #include "compare/identification_task.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
 #include "python/arrays.hpp"
 #include "python/long_call.hpp"
+#include "python/measurements.hpp"
 #include "python/module.hpp"
 #include "python/records.hpp"
 #include "report/json/identification_json.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/method_differences.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +36,7 @@ using Texts = std::vector<std::string>;
 /// An identification with what it is of.
 struct Identified {
   std::string name;
-  arm::Arm arm;
+  std::optional<arm::Arm> arm;
   measured::Identification identification;
   std::vector<compare::IdentifiedCondition> conditions;
 };
@@ -72,7 +75,7 @@ std::vector<Root> roots_of(const Identified& self, const std::optional<std::stri
   return roots;
 }
 
-Identified identify(const std::filesystem::path& path, const Texts& runs, const Texts& sensors,
+Identified identify(const py::object& measurement, const Texts& runs, const Texts& sensors,
                     const std::string& window, std::optional<double> resolution_Hz,
                     std::optional<double> overlap_percent, const std::string& detrend,
                     const std::string& peaks, const std::string& input,
@@ -92,8 +95,11 @@ Identified identify(const std::filesystem::path& path, const Texts& runs, const 
       .highest_order = highest_order,
       .total_inertia_kg_m2 = total_inertia_kg_m2,
       .spelled = as_argument};
+  const MeasurementSource source = measurement_source(measurement);
   return long_call("identification", progress, [&](CallState& state) {
-    auto task = compare::read_identification_task(path, request);
+    const auto* path = std::get_if<std::filesystem::path>(&source);
+    auto task = path ? compare::read_identification_task(*path, request)
+                     : compare::identification_task(recording_of(source), request);
     task.options.progress = [&](std::string_view, double fraction) {
       return state.reach(fraction);
     };
@@ -130,9 +136,11 @@ void add_root(py::module_& module) {
       .def_readonly("hub_held", &Root::hub_held, "From responses to the hub motion.")
       .def_property_readonly(
           "order", [](const Root& self) { return self.root.order; },
-          "From 1, of the root of the arm file.")
-      .def_property_readonly("frequency_Hz", number(&ModalEntry::frequency_Hz),
-                             "Undamped natural frequency [Hz].")
+          "From 1, of the root of the arm file; counted up without an arm.")
+      .def_property_readonly(
+          "alias_of_Hz", [](const Root& self) { return self.root.alias_of_Hz; },
+          "Of the alias of a mode above the Nyquist frequency: that mode's frequency [Hz].")
+      .def_property_readonly("frequency_Hz", number(&ModalEntry::frequency_Hz), "|s|/(2 pi) [Hz].")
       .def_property_readonly("frequency_std_Hz", number(&ModalEntry::frequency_std_Hz),
                              "Its standard error [Hz].")
       .def_property_readonly("damping_ratio", number(&ModalEntry::damping_ratio),
@@ -166,17 +174,28 @@ void add_identification(py::module_& module) {
   py::class_<Identified>(module, "Identification",
                          "Spectra, poles, zeros, damping and gains estimated from a measurement.")
       .def_readonly("name", &Identified::name, "Name of the measurement.")
-      .def_readonly("arm", &Identified::arm, "The arm of its file.")
+      .def_readonly("arm", &Identified::arm, "The arm of its file; None without one.")
       .def("roots", &roots_of, py::kw_only(), py::arg("feature") = py::none(),
            py::arg("method") = py::none(), py::arg("sensor") = py::none(),
-           "The roots of all methods, or those of a feature ('pole', 'zero'), method ('fit') or "
-           "sensor: a list of IdentifiedRoot.")
+           "The roots of all methods, or some of them: a list of IdentifiedRoot.\n\nArguments:\n"
+           "  feature: 'pole' or 'zero'; None: both\n"
+           "  method: 'fit', 'circle', 'response', 'autopower' or 'table'; None: all\n"
+           "  sensor: its name; None: all")
       .def_property_readonly(
           "poles", [](const Identified& self) { return roots_of(self, "pole", "fit", {}); },
           "Poles of the rational fits, a list of IdentifiedRoot.")
       .def_property_readonly(
           "zeros", [](const Identified& self) { return roots_of(self, "zero", "fit", {}); },
           "Zeros of the rational fits, a list of IdentifiedRoot.")
+      .def_property_readonly(
+          "doubts", [](const Identified& self) { return report::doubts(self.identification); },
+          "Why fits are not to be relied on: not converged, or unphysical; a list of sentences.")
+      .def_property_readonly(
+          "differences",
+          [](const Identified& self) {
+            return report::all_method_differences(self.identification, self.conditions);
+          },
+          "Poles that methods do not agree on by their errors, a list of sentences.")
       .def_property_readonly(
           "notes", [](const Identified& self) { return report::data_notes(self.identification); },
           "What was found about the data, a list of sentences.")
@@ -187,23 +206,13 @@ void add_identification(py::module_& module) {
                                                    self.conditions);
           },
           "The text that `flexarm identify --json` writes (docs/json.md).")
-      .def(
-          "to_dict",
-          [](const py::object& self) {
-            return py::module_::import("json").attr("loads")(self.attr("to_json")());
-          },
-          "The same as a dict: spectra, responses, readings, fits, gains.")
-      .def("_repr_html_",
-           [](const py::object& self) {
-             return py::module_::import("flexarm._html").attr("identification_table")(self);
-           })
       .def("__repr__", [](const Identified& self) {
         return fmt::format("<flexarm.Identification of '{}': {} poles, {} zeros by fits>",
                            self.name, roots_of(self, "pole", "fit", {}).size(),
                            roots_of(self, "zero", "fit", {}).size());
       });
   module.def(
-      "identify", &identify, py::arg("path"), py::kw_only(), py::arg("runs") = Texts{},
+      "identify", &identify, py::arg("measurement"), py::kw_only(), py::arg("runs") = Texts{},
       py::arg("sensors") = Texts{}, py::arg("window") = "", py::arg("resolution_Hz") = py::none(),
       py::arg("overlap_percent") = py::none(), py::arg("detrend") = "",
       py::arg("peaks") = "between", py::arg("input") = "", py::arg("from_Hz") = py::none(),
@@ -211,10 +220,28 @@ void add_identification(py::module_& module) {
       py::arg("highest_order") = measured::ModalFitOptions{}.highest_order,
       py::arg("total_inertia_kg_m2") = py::none(), py::arg("fit") = true,
       py::arg("progress") = py::none(),
-      "Estimates poles, zeros, damping and gains of a measurement.toml, with the arguments of "
-      "`flexarm identify`; what is not given is chosen from the data: Identification. progress as "
-      "in simulate. Ctrl-C ends it. Raises InputError 'FILE:LINE: ...', and for an argument that "
-      "cannot be used.");
+      "Estimates poles, zeros, damping and gains of measured data, as `flexarm identify` does; "
+      "what is not given is chosen from the data: Identification. Ctrl-C ends it.\n\n"
+      "Arguments:\n"
+      "  measurement: a Measurement, or the path of a measurement.toml\n"
+      "  runs: ids of the runs, a list ([]: all)\n"
+      "  sensors: names of the sensors, a list ([]: all)\n"
+      "  window: of the spectra, 'hann', 'rectangular', ... ('': by the torque)\n"
+      "  resolution_Hz: of the spectra [Hz]\n"
+      "  overlap_percent: of their segments [%], below 100\n"
+      "  detrend: 'none', 'mean' or 'line'\n"
+      "  peaks: where peaks are read, 'between' or 'on-line'\n"
+      "  input: of the responses, 'torque', 'hub_angle' or 'hub_velocity' ('': by evidence)\n"
+      "  from_Hz: lowest frequency of the fit [Hz] (None: 0, with to_Hz)\n"
+      "  to_Hz: highest frequency of the fit [Hz] (None: by the data)\n"
+      "  modes: flexible modes of the fit (None: by the data)\n"
+      "  highest_order: of the stabilisation diagram, 2 to 100\n"
+      "  total_inertia_kg_m2: I_T that the fit is held to [kg m^2] (None: fitted)\n"
+      "  fit: whether a rational function is fitted\n"
+      "  progress: as in simulate\n\n"
+      "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an argument, "
+      "which its line begins with.");
+  add_pickle<Root, Identified>();
 }
 
 }  // namespace flexarm::python

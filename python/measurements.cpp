@@ -1,19 +1,21 @@
+#include "python/measurements.hpp"
+
+#include "arm/input_error.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "measured/files/arm_file.hpp"
+#include "measured/files/atomic_file.hpp"
 #include "measured/files/measurement.hpp"
 #include "measured/files/run_data.hpp"
-#include "python/arrays.hpp"
+#include "python/archive.hpp"
+#include "python/arm.hpp"
+#include "python/measured_runs.hpp"
 #include "python/module.hpp"
-#include "python/records.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <filesystem>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-#include <string>
 #include <utility>
-#include <variant>
-#include <vector>
 
 namespace flexarm::python {
 
@@ -21,155 +23,126 @@ namespace py = pybind11;
 
 namespace {
 
-struct TimeRun {
-  measured::Run run;
-  measured::TimeRecord record;
-};
-
-struct FrequencyRun {
-  measured::Run run;
-  measured::FrequencyRecord record;
-};
-
-struct ModalRun {
-  measured::Run run;
-  measured::ModalTable table;
-};
-
-using AnyRun = std::variant<TimeRun, FrequencyRun, ModalRun>;
-
-struct Measurement {
-  std::string name;
-  std::filesystem::path arm_file;
-  std::vector<AnyRun> runs;
-};
-
 Measurement read_measurement(const std::filesystem::path& path) {
   const auto file = measured::read_measurement(path);
-  Measurement measurement{file.name, measured::beside(path, file.arm), {}};
+  Measurement measurement{file.name,
+                          {},
+                          file.arm.empty() ? std::filesystem::path() : measured::beside(path, file.arm),
+                          path,
+                          {}};
   for (const auto& run : file.runs) {
-    auto data = measured::read_run(path, run);
-    if (auto* record = std::get_if<measured::TimeRecord>(&data)) {
-      measurement.runs.emplace_back(TimeRun{run, std::move(*record)});
-    } else if (auto* responses = std::get_if<measured::FrequencyRecord>(&data)) {
-      measurement.runs.emplace_back(FrequencyRun{run, std::move(*responses)});
-    } else {
-      measurement.runs.emplace_back(ModalRun{run, std::get<measured::ModalTable>(std::move(data))});
-    }
+    measurement.runs.push_back({run, measured::read_run(path, run)});
   }
   return measurement;
 }
 
-std::vector<arm::Sensor> sensors_in(const measured::FrequencyRecord& record) {
-  std::vector<arm::Sensor> sensors;
-  for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
-  return sensors;
+std::vector<AnyRun> runs_in(const py::object& runs) {
+  const bool is_one = py::isinstance<TimeRun>(runs) || py::isinstance<FrequencyRun>(runs) ||
+                      py::isinstance<ModalRun>(runs);
+  if (is_one) return {runs.cast<AnyRun>()};
+  return runs.cast<std::vector<AnyRun>>();
 }
 
-/// The getter or method of one sensor's numbers, which are `member` of its channel.
-template <class T>
-auto of_channel(std::vector<T> measured::FrequencyChannel::*member) {
-  return [member](const py::object& self, const std::string& sensor) {
-    const auto& record = self.cast<const FrequencyRun&>().record;
-    return view<T>(record.channels[place_of(sensor, sensors_in(record))].*member, self);
-  };
+Measurement measurement_of(const py::object& arm, const py::object& runs, const std::string& name) {
+  Measurement made{name, {}, {}, {}, {}};
+  if (!arm.is_none()) made.arm = arm_of(arm);
+  try {
+    for (const auto& run : runs_in(runs)) made.runs.push_back(as_measured(run));
+  } catch (const py::cast_error&) {
+    throw py::type_error("runs: must be a TimeRun, FrequencyRun or ModalRun, or a list of these");
+  }
+  compare::require_valid({name, made.arm.value_or(arm::Arm()), made.runs});
+  return made;
 }
 
-template <class Class>
-Class& add_run_facts(Class& type) {
-  using Run = typename Class::type;
-  type.def_property_readonly(
-          "id", [](const Run& self) { return self.run.id; }, "Its id.")
-      .def_property_readonly(
-          "purpose",
-          [](const Run& self) -> std::optional<std::string> {
-            if (!self.run.purpose) return std::nullopt;
-            return std::string(to_string(*self.run.purpose));
-          },
-          "'estimation' or 'validation'; None: the program chooses.")
-      .def_property_readonly(
-          "payload_mass_kg",
-          [](const Run& self) -> std::optional<double> {
-            if (!self.run.payload) return std::nullopt;
-            return self.run.payload->mass_kg;
-          },
-          "Mass of its payload [kg]; None: that of the arm file.");
-  return type;
+arm::Arm arm_in(const Measurement& measurement) {
+  if (measurement.arm) return *measurement.arm;
+  if (!measurement.arm_file.empty()) {
+    return measured::read_arm_file(measurement.arm_file, effects::vocabulary());
+  }
+  throw arm::InputError("measurement: has no arm; make it with Measurement(arm, runs)");
 }
 
-void add_runs(py::module_& module) {
-  auto time = py::class_<TimeRun>(
-      module, "TimeRun",
-      "A recording in time. run['hub_angle'] is what a sensor read, read-only array (samples,) in "
-      "its SI unit.");
-  add_record_access(add_run_facts(time), &TimeRun::record);
-  time.def("__repr__", [](const TimeRun& self) {
-    return fmt::format("<flexarm.TimeRun '{}': {} samples of {:g} s, {}>", self.run.id,
-                       self.record.time_s.size(), measured::sampling_period_s(self.record),
-                       fmt::join(names_of_channels(self.record), ", "));
-  });
-
-  auto frequency = py::class_<FrequencyRun>(
-      module, "FrequencyRun",
-      "Measured frequency responses. run['hub_angle'] is the response of a sensor, read-only "
-      "complex array (frequencies,) in its unit per N m.");
-  add_run_facts(frequency)
-      .def_property_readonly(
-          "sensors", [](const FrequencyRun& self) { return names_of(sensors_in(self.record)); },
-          "Names of the sensors.")
-      .def("__getitem__", of_channel(&measured::FrequencyChannel::response))
-      .def("frequency_Hz", of_channel(&measured::FrequencyChannel::frequency_Hz), py::arg("sensor"),
-           "f of a sensor's response [Hz], read-only array (frequencies,).")
-      .def("coherence", of_channel(&measured::FrequencyChannel::coherence), py::arg("sensor"),
-           "Coherence [1], NaN where unknown, read-only array (frequencies,).")
-      .def("__repr__", [](const FrequencyRun& self) {
-        return fmt::format("<flexarm.FrequencyRun '{}': {}>", self.run.id,
-                           fmt::join(texts_of(sensors_in(self.record)), ", "));
-      });
-
-  using measured::ModalEntry;
-  py::class_<ModalEntry>(module, "ModalEntry", "A measured pole or zero; None: not known.")
-      .def_property_readonly(
-          "feature", [](const ModalEntry& self) { return std::string(to_string(self.feature)); },
-          "'pole' or 'zero'.")
-      .def_property_readonly(
-          "sensor",
-          [](const ModalEntry& self) {
-            return self.sensor ? std::optional(arm::to_string(*self.sensor)) : std::nullopt;
-          },
-          "Name of the sensor.")
-      .def_readonly("order", &ModalEntry::order, "From 1.")
-      .def_readonly("frequency_Hz", &ModalEntry::frequency_Hz, "Natural frequency [Hz].")
-      .def_readonly("frequency_std_Hz", &ModalEntry::frequency_std_Hz,
-                    "Its standard deviation [Hz].")
-      .def_readonly("damping_ratio", &ModalEntry::damping_ratio, "Damping ratio [1].")
-      .def_readonly("damping_ratio_std", &ModalEntry::damping_ratio_std,
-                    "Its standard deviation [1].");
-  auto modal = py::class_<ModalRun>(module, "ModalRun", "A table of measured poles and zeros.");
-  add_run_facts(modal)
-      .def_readonly("entries", &ModalRun::table, "A list of ModalEntry.")
-      .def("__repr__", [](const ModalRun& self) {
-        return fmt::format("<flexarm.ModalRun '{}': {} entries>", self.run.id, self.table.size());
-      });
+void write(const Measurement& measurement, const std::filesystem::path& folder) {
+  const arm::Arm arm = arm_in(measurement);
+  measured::Measurement file{measurement.name, "arm.toml", {}};
+  std::vector<measured::NamedContent> contents;
+  for (auto [run, data] : measurement.runs) {
+    run.file = run.id + ".csv";
+    run.columns.clear();  // they are of the log, not of what is written
+    contents.push_back({run.file, measured::format_run_data(data)});
+    file.runs.push_back(std::move(run));
+  }
+  contents.push_back({"arm.toml", measured::format_arm(arm)});
+  contents.push_back({"measurement.toml", measured::format_measurement(file)});
+  measured::write_folder_atomically(folder, contents, measured::IfExists::refuse);
 }
 
 }  // namespace
 
+MeasurementSource measurement_source(const py::object& measurement) {
+  if (py::isinstance<Measurement>(measurement)) return measurement.cast<Measurement>();
+  try {
+    return measurement.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(fmt::format(
+        "measurement: {}; must be the path of a measurement.toml, or Measurement(arm, runs)",
+        std::string(py::str(py::type::handle_of(measurement).attr("__name__")))));
+  }
+}
+
+compare::Recording recording_of(const MeasurementSource& source) {
+  if (const auto* path = std::get_if<std::filesystem::path>(&source)) {
+    return compare::read_recording(*path);
+  }
+  const auto& measurement = std::get<Measurement>(source);
+  return {measurement.name, arm_in(measurement), measurement.runs};
+}
+
 void add_measurements(py::module_& module) {
-  add_runs(module);
-  py::class_<Measurement>(module, "Measurement", "Recordings of an experiment on one arm.")
+  add_measured_runs(module);
+  py::class_<Measurement>(
+      module, "Measurement",
+      "Recordings of an experiment on one arm, of a file or of numbers.\n\nArguments:\n"
+      "  arm: an Arm, the path of an arm file, or None where it is not known\n"
+      "  runs: a TimeRun, FrequencyRun or ModalRun, or a list of these, each with its own id\n"
+      "  name: its name\n\n"
+      "identify and diagnose take it as they take the path of a measurement.toml. Raises "
+      "InputError for runs that do not go together.")
+      .def(py::init(&measurement_of), py::arg("arm"), py::arg("runs"), py::arg("name") = "")
       .def_readonly("name", &Measurement::name, "Its name.")
       .def_property_readonly(
+          "arm",
+          [](const Measurement& self) -> std::optional<arm::Arm> {
+            if (!self.arm && self.arm_file.empty()) return std::nullopt;
+            return arm_in(self);
+          },
+          "Its Arm, read from the arm file where there is one; None where it is not known.")
+      .def_property_readonly(
           "arm_file", [](const Measurement& self) { return self.arm_file.string(); },
-          "Path of the arm file.")
-      .def_readonly("runs", &Measurement::runs,
-                    "The runs, a list of TimeRun, FrequencyRun and ModalRun.")
+          "Path of the arm file, '' without one.")
+      .def_property_readonly(
+          "runs",
+          [](const Measurement& self) {
+            std::vector<AnyRun> runs;
+            for (const auto& run : self.runs) runs.push_back(as_given(run));
+            return runs;
+          },
+          "The runs, a list of TimeRun, FrequencyRun and ModalRun.")
+      .def_readonly("notes", &Measurement::notes,
+                    "What an import assumed, left out and warned of, a list of sentences.")
+      .def("write", &write, py::arg("folder"),
+           "Writes a new folder: measurement.toml, arm.toml and a CSV file for each run, which "
+           "read_measurement reads back. Raises InputError where the folder exists or the arm is "
+           "not known.\n\nArguments:\n  folder: its path")
       .def("__repr__", [](const Measurement& self) {
         return fmt::format("<flexarm.Measurement '{}': {} runs>", self.name, self.runs.size());
       });
   module.def("read_measurement", &read_measurement, py::arg("path"),
              "Reads measurement.toml and the files of its runs, in SI units (docs/formats.md): "
-             "Measurement. Raises InputError 'FILE:LINE: ...'.");
+             "Measurement. Raises InputError 'FILE:LINE: ...'.\n\nArguments:\n"
+             "  path: that of the measurement.toml");
+  add_pickle<Measurement>();
 }
 
 }  // namespace flexarm::python

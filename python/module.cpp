@@ -1,11 +1,13 @@
 #include "python/module.hpp"
 
+#include "python/signatures.hpp"
+
 PYBIND11_MODULE(_flexarm, module) {
   using namespace flexarm::python;
   module.doc() = "The extension behind the package flexarm, which has all its names.";
   module.attr("__version__") = FLEXARM_VERSION;
   pybind11::options options;
-  options.disable_function_signatures();  // python/flexarm/_flexarm.pyi has them, with types
+  options.disable_function_signatures();  // add_signatures gives those of Python
   add_errors(module);
   add_arm(module);
   add_effects(module);
@@ -16,7 +18,9 @@ PYBIND11_MODULE(_flexarm, module) {
   add_simulated_runs(module);
   add_simulation(module);
   add_measurements(module);
+  add_importing(module);
   add_identification(module);
   add_planning(module);
   add_diagnosis(module);
+  add_signatures(module);
 }

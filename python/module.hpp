@@ -16,6 +16,7 @@ void add_controllers(pybind11::module_& module);
 void add_simulated_runs(pybind11::module_& module);
 void add_simulation(pybind11::module_& module);
 void add_measurements(pybind11::module_& module);
+void add_importing(pybind11::module_& module);
 void add_identification(pybind11::module_& module);
 void add_planning(pybind11::module_& module);
 void add_diagnosis(pybind11::module_& module);

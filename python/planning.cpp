@@ -1,8 +1,8 @@
 #include "diagnose/planning/plan_task.hpp"
-#include "effects/registry/vocabulary.hpp"
-#include "measured/files/arm_file.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
+#include "python/arm.hpp"
 #include "python/long_call.hpp"
 #include "python/module.hpp"
 #include "report/json/plan_json.hpp"
@@ -41,10 +41,7 @@ std::optional<std::map<std::string, double>> values_of(
 
 Plan plan(const py::object& arm, const std::filesystem::path& plan_file, const Texts& effects,
           const Texts& refit, const py::object& progress) {
-  const arm::Arm of =
-      py::isinstance<arm::Arm>(arm)
-          ? arm.cast<arm::Arm>()
-          : measured::read_arm_file(arm.cast<std::filesystem::path>(), effects::vocabulary());
+  const arm::Arm of = arm_of(arm);
   return long_call("plan", progress, [&](CallState& state) {
     const auto task =
         diagnose::plan_task(of, diagnose::read_measurement_plan(plan_file),
@@ -98,12 +95,6 @@ void add_planning(py::module_& module) {
           "The plan with the recommended runs, the text of a measurement-plan.toml.")
       .def("to_json", &report::plan_document,
            "The text that `flexarm plan --json` writes (docs/json.md).")
-      .def(
-          "to_dict",
-          [](const py::object& self) {
-            return py::module_::import("json").attr("loads")(self.attr("to_json")());
-          },
-          "The same as a dict.")
       .def("__repr__", [](const Plan& self) {
         return fmt::format("<flexarm.Plan: {} effects, {} indistinguishable classes>",
                            self.effects.size(), self.classes.size());
@@ -111,9 +102,14 @@ void add_planning(py::module_& module) {
   module.def(
       "plan", &plan, py::arg("arm"), py::arg("plan_file"), py::kw_only(),
       py::arg("effects") = Texts{}, py::arg("refit") = Texts{}, py::arg("progress") = py::none(),
-      "What the runs of a measurement-plan.toml would say of the effects of an arm (an Arm or "
-      "the path of its file): Plan. `effects` to look at (none named: all), `refit` those "
-      "whose size is not known. progress as in simulate. Ctrl-C ends it. Raises InputError.");
+      "What the runs of a measurement-plan.toml would say of the effects of an arm: Plan. Ctrl-C "
+      "ends it. Raises InputError.\n\nArguments:\n"
+      "  arm: an Arm, or the path of an arm file\n"
+      "  plan_file: path of the measurement-plan.toml\n"
+      "  effects: names of the effects to look at, a list; []: all\n"
+      "  refit: names of those whose size is not known, a list\n"
+      "  progress: as in simulate");
+  add_pickle<Detection, Plan>();
 }
 
 }  // namespace flexarm::python

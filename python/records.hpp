@@ -46,6 +46,10 @@ void add_record_access(Class& type, measured::TimeRecord Object::*member) {
           "Reference of a closed loop, in the unit of its sensor, read-only array (samples,); None "
           "in open loop.")
       .def_property_readonly(
+          "reference_unit",
+          [record](const py::object& self) { return record(self).reference.unit; },
+          "Unit of the reference, '' in open loop.")
+      .def_property_readonly(
           "sensors",
           [record](const py::object& self) { return names_of(sensors_of_record(record(self))); },
           "Names of the sensors.")
@@ -58,14 +62,7 @@ void add_record_access(Class& type, measured::TimeRecord Object::*member) {
              const auto& of = record(self);
              return view<double>(of.channels[channel_of(of, sensor)].values, self);
            })
-      .def("__len__", [record](const py::object& self) { return record(self).time_s.size(); })
-      .def(
-          "to_xarray",
-          [](const py::object& self) {
-            return py::module_::import("flexarm._conversions").attr("record_to_xarray")(self);
-          },
-          "xarray.Dataset with torque and sensors over time [s], units as attributes. Raises "
-          "ImportError where xarray is not installed.");
+      .def("__len__", [record](const py::object& self) { return record(self).time_s.size(); });
 }
 
 }  // namespace flexarm::python

@@ -1,5 +1,6 @@
 #include "python/responses.hpp"
 
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/arrays.hpp"
 #include "python/module.hpp"
@@ -7,12 +8,14 @@
 #include "response/any_formulation.hpp"
 #include "response/frequency/response_study.hpp"
 #include "response/residual_mode.hpp"
+#include "response/state_space_roots.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <complex>
+#include <optional>
 #include <pybind11/stl.h>
 #include <string>
 
@@ -39,9 +42,17 @@ response::FrequencyResponse frequency_response_of(const Formulation& formulation
 }
 
 response::StateSpace state_space_of(const Formulation& formulation,
-                                    const std::vector<arm::Sensor>& sensors, int modes,
-                                    bool static_correction) {
-  arm::ModalModel model = response::modal_model(formulation.formulation, modes, sensors, {});
+                                    const std::vector<arm::Sensor>& sensors,
+                                    std::optional<int> modes, bool static_correction) {
+  response::ResponseOptions options;
+  options.sensors = sensors;
+  const auto band = response::frequency_range(formulation.formulation, options);
+  const auto truncation = response::truncation_in_frequency(
+      formulation.formulation, sensors, response::judged_frequencies_Hz(band.from_Hz, band.to_Hz),
+      static_correction,
+      {modes, response::most_chosen_modes(response::name(formulation.formulation))});
+  arm::ModalModel model =
+      response::modal_model(formulation.formulation, truncation.modes, sensors, {});
   if (static_correction) {
     model = response::with_residual_mode(formulation.formulation, model, sensors);
   }
@@ -49,7 +60,9 @@ response::StateSpace state_space_of(const Formulation& formulation,
   std::erase_if(chain.sensor_chains, [&](const response::SensorChain& one) {
     return std::ranges::find(sensors, one.sensor) == sensors.end();
   });
-  return response::state_space(model, sensors, chain);
+  response::StateSpace system = response::state_space(model, sensors, chain);
+  system.truncation_errors = truncation.errors;
+  return system;
 }
 
 namespace {
@@ -76,13 +89,6 @@ FrequencyResponse response_of(const StateSpace& system, const Numbers& frequency
   return response;
 }
 
-/// A method that a function of a Python file of the package is.
-auto python(const char* file, const char* function) {
-  return [file, function](const py::object& self) {
-    return py::module_::import(file).attr(function)(self);
-  };
-}
-
 void add_frequency_response(py::module_& module) {
   py::class_<FrequencyResponse>(
       module, "FrequencyResponse",
@@ -103,15 +109,18 @@ void add_frequency_response(py::module_& module) {
              return view<std::complex<double>>(response.values[place_of(sensor, response.sensors)],
                                                self);
            })
-      .def("to_xarray", python("flexarm._conversions", "response_to_xarray"),
-           "xarray.Dataset with a complex variable for each sensor over frequency [Hz], units as "
-           "attributes. Raises ImportError where xarray is not installed.")
       .def("__len__", [](const FrequencyResponse& self) { return self.frequency_Hz.size(); })
       .def("__repr__", [](const FrequencyResponse& self) {
         return fmt::format("<flexarm.FrequencyResponse of {}: {} frequencies, {:.6g} to {:.6g} Hz>",
                            fmt::join(texts_of(self.sensors), ", "), self.frequency_Hz.size(),
                            self.frequency_Hz.front(), self.frequency_Hz.back());
       });
+}
+
+/// What `compute` returns, computed without the interpreter's lock.
+auto without_lock(const auto& compute) {
+  const py::gil_scoped_release released;
+  return compute();
 }
 
 /// The getter of a matrix of a state space.
@@ -139,6 +148,9 @@ void add_state_space(py::module_& module) {
                 std::vector<double>(self.output_delay_s.begin(), self.output_delay_s.end()));
           },
           "Delays of the sensors [s], array (sensors,).")
+      .def_readonly("truncation_errors", &StateSpace::truncation_errors,
+                    "Of each sensor, from well below the first pole to above the fifth: root mean "
+                    "square of |G_ss - G|/|G|, list of float.")
       .def_readonly("states", &StateSpace::states,
                     "Names of the states: q_0, q_0', q_1, ..., 'hub torque', 'reading of ...'.")
       .def_property_readonly(
@@ -148,26 +160,24 @@ void add_state_space(py::module_& module) {
           "units", [](const StateSpace& self) { return units_of(self.sensors); }, "Their units.")
       .def("frequency_response", &response_of, py::arg("frequency_Hz"),
            "Of this state space, delays included, at ascending frequencies [Hz]: "
-           "FrequencyResponse.")
+           "FrequencyResponse.\n\nArguments:\n  frequency_Hz: f [Hz], array (frequencies,)")
       .def(
-          "to_scipy",
-          [](const py::object& self, bool ignore_delays) {
-            return py::module_::import("flexarm._conversions")
-                .attr("to_scipy")(self, ignore_delays);
+          "poles",
+          [](const StateSpace& self) {
+            return owned(without_lock([&] { return response::poles(self); }));
           },
-          py::kw_only(), py::arg("ignore_delays") = false,
-          "scipy.signal.StateSpace of A, B, C, D. It has no delays: raises ValueError where there "
-          "are some, unless ignore_delays=True. Raises ImportError where SciPy is not installed.")
+          "Poles s [rad/s], the eigenvalues of A, ascending in |s|: complex array (states,).")
       .def(
-          "to_control",
-          [](const py::object& self, bool ignore_delays) {
-            return py::module_::import("flexarm._conversions")
-                .attr("to_control")(self, ignore_delays);
+          "zeros",
+          [](const StateSpace& self, const std::optional<std::string>& name) {
+            const arm::Sensor sensor =
+                self.sensors[name ? place_of(*name, self.sensors) : std::size_t(0)];
+            return owned(without_lock([&] { return response::zeros(self, sensor); }));
           },
-          py::kw_only(), py::arg("ignore_delays") = false,
-          "control.StateSpace (python-control) of A, B, C, D, with names of input, outputs and "
-          "states. Delays as in to_scipy. Raises ImportError where python-control is not "
-          "installed.")
+          py::arg("sensor") = py::none(),
+          "Finite zeros s [rad/s] from the torque to a sensor, ascending in |s|: complex array "
+          "(zeros,). Those of few modes are not those of the arm: Formulation.zeros has them.\n\n"
+          "Arguments:\n  sensor: its name; None: the first")
       .def("__repr__", [](const StateSpace& self) {
         return fmt::format("<flexarm.StateSpace: torque to {}, {} states>",
                            fmt::join(texts_of(self.sensors), ", "), self.states.size());
@@ -179,6 +189,7 @@ void add_state_space(py::module_& module) {
 void add_responses(py::module_& module) {
   add_frequency_response(module);
   add_state_space(module);
+  add_pickle<FrequencyResponse, StateSpace>();
 }
 
 }  // namespace flexarm::python

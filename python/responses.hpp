@@ -25,7 +25,7 @@ response::FrequencyResponse frequency_response_of(const Formulation& formulation
                                                   const FrequencyRange& range);
 
 response::StateSpace state_space_of(const Formulation& formulation,
-                                    const std::vector<arm::Sensor>& sensors, int modes,
-                                    bool static_correction);
+                                    const std::vector<arm::Sensor>& sensors,
+                                    std::optional<int> modes, bool static_correction);
 
 }  // namespace flexarm::python

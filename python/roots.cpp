@@ -1,5 +1,6 @@
 #include "python/roots.hpp"
 
+#include "python/archive.hpp"
 #include "python/arm.hpp"
 #include "python/arrays.hpp"
 #include "python/module.hpp"
@@ -123,13 +124,8 @@ void add_poles(py::module_& module) {
       .def_readonly("count", &PoleSet::count, "RootCount.")
       .def_readonly("summary", &PoleSet::summary, "SolveSummary.")
       .def("__len__", [](const PoleSet& poles) { return poles.omega_rad_per_s.size(); })
-      .def("__repr__",
-           [](const PoleSet& poles) {
-             return fmt::format("<flexarm.Poles, undamped: {} Hz>",
-                                shown_Hz(poles.omega_rad_per_s));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("poles_table")(self);
+      .def("__repr__", [](const PoleSet& poles) {
+        return fmt::format("<flexarm.Poles, undamped: {} Hz>", shown_Hz(poles.omega_rad_per_s));
       });
   py::class_<DampedPoleSet>(module, "DampedPoles",
                             "Poles of the damped arm, two for each mode, in the order of Poles: "
@@ -155,13 +151,8 @@ void add_poles(py::module_& module) {
           "Damping ratio [1], above 1 for two real poles, array (count,).")
       .def_readonly("summary", &DampedPoleSet::summary, "SolveSummary.")
       .def("__len__", [](const DampedPoleSet& poles) { return poles.flexible.size(); })
-      .def("__repr__",
-           [](const DampedPoleSet& poles) {
-             return fmt::format("<flexarm.DampedPoles: {} Hz>",
-                                shown_Hz(natural_frequencies(poles)));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("damped_poles_table")(self);
+      .def("__repr__", [](const DampedPoleSet& poles) {
+        return fmt::format("<flexarm.DampedPoles: {} Hz>", shown_Hz(natural_frequencies(poles)));
       });
 }
 
@@ -216,13 +207,9 @@ void add_zeros(py::module_& module) {
       .def_property_readonly(
           "summary", [](const SensorZeros& set) { return set.zeros.summary; }, "SolveSummary.")
       .def("__len__", [](const SensorZeros& set) { return set.zeros.s_rad_per_s.size(); })
-      .def("__repr__",
-           [](const SensorZeros& set) {
-             return fmt::format("<flexarm.Zeros of {}: {} Hz>", arm::to_string(set.sensor),
-                                shown_Hz(sizes(set.zeros.s_rad_per_s)));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("zeros_table")(self);
+      .def("__repr__", [](const SensorZeros& set) {
+        return fmt::format("<flexarm.Zeros of {}: {} Hz>", arm::to_string(set.sensor),
+                           shown_Hz(sizes(set.zeros.s_rad_per_s)));
       });
 }
 
@@ -308,14 +295,10 @@ void add_modes(py::module_& module) {
           },
           "Mode shapes phi [m], array (modes, stations).")
       .def("__len__", [](const Modes& modes) { return modes.model.modes.size(); })
-      .def("__repr__",
-           [](const Modes& modes) {
-             std::vector<double> omega;
-             for (const auto& mode : modes.model.modes) omega.push_back(mode.omega_rad_per_s);
-             return fmt::format("<flexarm.Modes: {} Hz>", shown_Hz(omega));
-           })
-      .def("_repr_html_", [](const py::object& self) {
-        return py::module_::import("flexarm._html").attr("modes_table")(self);
+      .def("__repr__", [](const Modes& modes) {
+        std::vector<double> omega;
+        for (const auto& mode : modes.model.modes) omega.push_back(mode.omega_rad_per_s);
+        return fmt::format("<flexarm.Modes: {} Hz>", shown_Hz(omega));
       });
 }
 
@@ -326,6 +309,8 @@ void add_roots(py::module_& module) {
   add_poles(module);
   add_zeros(module);
   add_modes(module);
+  add_pickle<arm::SolveSummary, arm::RootCount, arm::PoleSet, arm::DampedPoleSet, arm::RejectedZero,
+             SensorZeros, Modes>();
 }
 
 }  // namespace flexarm::python

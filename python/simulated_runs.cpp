@@ -1,4 +1,5 @@
 #include "experiment/simulated_experiment.hpp"
+#include "python/archive.hpp"
 #include "python/arrays.hpp"
 #include "python/module.hpp"
 #include "python/records.hpp"
@@ -34,7 +35,9 @@ void add_run(py::module_& module) {
             return view<double>(simulated.simulation.channels[channel_of(simulated.record, sensor)],
                                 self);
           },
-          py::arg("sensor"), "What the sensor reads without noise, array (samples,).")
+          py::arg("sensor"),
+          "What the sensor reads without noise, array (samples,).\n\nArguments:\n  sensor: its "
+          "name")
       .def_property_readonly(
           "hub_torque_N_m",
           [](const py::object& self) {
@@ -52,6 +55,13 @@ void add_run(py::module_& module) {
       .def_readonly("step_error", &SimulatedRun::step_error,
                     "Relative difference of each sensor to a tenfold smaller step, a list; empty "
                     "unless check_step was asked for.")
+      .def_property_readonly(
+          "modes", [](const SimulatedRun& self) { return self.truncation.modes; },
+          "Flexible modes.")
+      .def_property_readonly(
+          "truncation_errors", [](const SimulatedRun& self) { return self.truncation.errors; },
+          "Estimated error of each sensor by the omitted modes, relative to its signal, a list; of "
+          "several runs the largest.")
       .def("__repr__", [](const SimulatedRun& self) {
         return fmt::format("<flexarm.SimulatedRun '{}': {} samples of {:g} s, {}>", self.id,
                            self.record.time_s.size(), measured::sampling_period_s(self.record),
@@ -71,6 +81,9 @@ void add_run(py::module_& module) {
       .def_property_readonly(
           "sensors", [](const SteppedSineRun& self) { return names_of(self.sensors); },
           "Names of the sensors.")
+      .def_property_readonly(
+          "units", [](const SteppedSineRun& self) { return units_of(self.sensors); },
+          "Their units; responses are in these per N m.")
       .def("__getitem__", [](const py::object& self, const std::string& sensor) {
         const auto& measured = self.cast<const SteppedSineRun&>();
         return view<std::complex<double>>(
@@ -109,6 +122,7 @@ void add_simulation_summaries(py::module_& module) {
 void add_simulated_runs(py::module_& module) {
   add_simulation_summaries(module);
   add_run(module);
+  add_pickle<SimulatedRun, SteppedSineRun, response::EnergyBalance, response::SimulationSummary>();
 }
 
 }  // namespace flexarm::python

@@ -1,6 +1,7 @@
 #include "arm/input_error.hpp"
 #include "experiment/simulated_experiment.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "python/archive.hpp"
 #include "python/argument_names.hpp"
 #include "python/arm.hpp"
 #include "python/arrays.hpp"
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <pybind11/eval.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <string>
@@ -52,14 +54,38 @@ std::vector<std::string> pairs(const std::map<std::string, double>& numbers) {
   return texts;
 }
 
-/// The arguments that both functions have, as `add_settings` names them.
-Settings settings_of(const py::kwargs& given) {
+/// The settings of both functions, with their defaults; None: what the program chooses.
+constexpr const char* kSettings =
+    "sensors=None, duration_s=None, sample_time_s=None, seed=1, noise=0.0, noise_of=None, "
+    "quantisation=None, formulation='exact_tf', elements=None, degree=None, basis=None, "
+    "functions=None, modes=None, static_correction=False, hold='zero', substeps=0, "
+    "check_step=False";
+
+/// The settings that are given, and the defaults of the others. Throws py::type_error for a keyword
+/// that is none of them.
+py::dict with_defaults(const py::kwargs& given) {
+  py::dict settings = py::eval(fmt::format("dict({})", kSettings));
+  for (const auto& [name, value] : given) {
+    if (!settings.contains(name)) {
+      throw py::type_error(fmt::format("unexpected keyword argument '{}'; settings are {}",
+                                       name.cast<std::string>(), kSettings));
+    }
+    settings[name] = value;
+  }
+  return settings;
+}
+
+Settings settings_of(const py::kwargs& keywords) {
+  const py::dict all = with_defaults(keywords);
   Settings settings;
-  std::set<std::string> known = {"sensors"};
   const auto take = [&](const char* name, auto& value) {
-    known.insert(name);
-    if (given.contains(name) && !given[name].is_none()) {
-      value = given[name].cast<std::remove_reference_t<decltype(value)>>();
+    const py::object given = all[name];
+    if (given.is_none()) return;
+    try {
+      value = given.cast<std::remove_reference_t<decltype(value)>>();
+    } catch (const py::cast_error&) {
+      throw py::type_error(
+          fmt::format("{} = {}: must be as in {}", name, std::string(py::repr(given)), kSettings));
     }
   };
   settings.runs.spelled = as_argument;
@@ -68,8 +94,8 @@ Settings settings_of(const py::kwargs& given) {
   take("sample_time_s", settings.runs.period_s);
   take("seed", settings.runs.seed);
   settings.options.noise_seed = settings.runs.seed;
-  if (given.contains("sensors") && !given["sensors"].is_none()) {
-    for (const auto& sensor : sensors_of(given["sensors"])) {
+  if (!all["sensors"].is_none()) {
+    for (const auto& sensor : sensors_of(all["sensors"])) {
       settings.sensors.names.push_back(arm::to_string(sensor));
     }
   }
@@ -91,13 +117,7 @@ Settings settings_of(const py::kwargs& given) {
   take("static_correction", options.static_correction);
   take("substeps", options.substeps);
   take("check_step", options.check_step);
-  std::string hold = "zero";
-  take("hold", hold);
-  for (const auto& [name, value] : given) {
-    if (known.contains(name.cast<std::string>())) continue;
-    throw py::type_error(fmt::format("unexpected keyword argument '{}'; further arguments are {}",
-                                     name.cast<std::string>(), fmt::join(known, ", ")));
-  }
+  const auto hold = all["hold"].cast<std::string>();
   if (hold != "zero" && hold != "first") {
     throw arm::InputError(fmt::format(
         "hold {}: must be zero (zero-order hold) or first (first-order hold)", arm::shown(hold)));
@@ -224,14 +244,22 @@ void add_experiment(py::module_& module) {
           "model", [](const Experiment& self) { return self.simulated.model; },
           "Name of the formulation.")
       .def_property_readonly(
+          "truncation_errors",
+          [](const Experiment& self) { return self.simulated.truncation.errors; },
+          "Estimated error of each sensor by the omitted modes, relative to its signal, a list; "
+          "the "
+          "largest of all runs.")
+      .def_property_readonly(
           "modes", [](const Experiment& self) { return self.simulated.modes; },
           "Flexible modes that were kept.")
       .def(
           "write", &write, py::arg("folder"), py::kw_only(), py::arg("name") = "",
           py::arg("hide_effects") = Texts{},
           "Writes a new folder as `flexarm simulate --out`: measurement.toml, arm.toml, a CSV file "
-          "and figures for each run. hide_effects=['all'] leaves effects out of the arm file. "
-          "Raises InputError where the folder exists.")
+          "and figures for each run. "
+          "Raises InputError where the folder exists.\n\nArguments:\n"
+          "  folder: its path\n  name: of the measurement; '': that of the arm\n"
+          "  hide_effects: effects left out of the arm file, a list; ['all']: every one")
       .def(
           "to_json",
           [](const Experiment& self) {
@@ -246,42 +274,63 @@ void add_experiment(py::module_& module) {
       });
 }
 
-constexpr const char* kSettings =
-    "\n\nFurther arguments, as the options of `flexarm simulate`: sensors (None: hub_angle, "
-    "hub_velocity and, with a beam, tip_acceleration), duration_s (4), sample_time_s (0.0005), "
-    "seed (1), noise (standard deviation relative to that of the signal), noise_of and "
-    "quantisation (dicts by sensor, in its unit), formulation ('exact_tf') with elements, degree, "
-    "basis and functions, modes (5), static_correction (False), hold ('zero' or 'first'), substeps "
-    "(0) and check_step (False). progress: a callable of the fraction done, None for a line on a "
-    "terminal or in a notebook, False for none. Ctrl-C ends it. Raises InputError.";
+constexpr const char* kSettingsText =
+    "  controller: a Controller, 'kp=2,kd=0.1' or the path of its file, with a reference\n"
+    "  progress: a callable of the fraction done, None for a line on a terminal or in a notebook, "
+    "False for none\n"
+    "  sensors: names; None: hub_angle, hub_velocity and, with a beam, tip_acceleration\n"
+    "  duration_s: of an excitation [s]; None: 4\n"
+    "  sample_time_s: sampling period [s]; None: 0.0005\n"
+    "  seed: of the noise, and of excitations without one\n"
+    "  noise: standard deviation relative to that of the signal [1]\n"
+    "  noise_of: a dict of standard deviations by sensor, in its unit\n"
+    "  quantisation: a dict of steps by sensor, in its unit\n"
+    "  formulation: 'exact_tf', 'fem', 'assumed_modes' or 'rigid_hub'\n"
+    "  elements, degree: of fem; None: chosen\n"
+    "  basis, functions: of assumed_modes; None: chosen\n"
+    "  modes: flexible modes; None: as many as keep the truncation error below 1e-4\n"
+    "  static_correction: whether a residual mode stands for the omitted ones\n"
+    "  hold: torque between samples, 'zero' (constant) or 'first' (linear)\n"
+    "  substeps: inner steps a sample; 0: chosen\n"
+    "  check_step: whether the step is halved to estimate its error\n\n"
+    "Ctrl-C ends it. Raises InputError.";
 
 }  // namespace
 
 void add_simulation(py::module_& module) {
   add_experiment(module);
+  const auto text = [](const std::string& of_one) {
+    return fmt::format("{}\n--\n\n{}{}", kSettings, of_one, kSettingsText);
+  };
   module.def(
       "simulate", &simulate, py::arg("arm"), py::arg("excitation") = py::none(), py::kw_only(),
       py::arg("reference") = py::none(), py::arg("controller") = py::none(),
       py::arg("progress") = py::none(),
-      (std::string("The time response of an arm at rest, all effects included: SimulatedRun. "
-                   "`excitation` is a torque [N m], array (samples,), or "
-                   "'KIND:KEY=VALUE,...' as for `flexarm simulate --excitation`. In closed loop "
-                   "`reference`, an array in the unit of the controller's sensor or such a text, "
-                   "takes its place, with a Controller or 'kp=2,kd=0.1' or the path of its file.") +
-       kSettings)
+      text(
+          "The time response of an arm at rest, all effects included: SimulatedRun.\n\nArguments:\n"
+          "  arm: the Arm\n"
+          "  excitation: a torque [N m], array (samples,), or 'KIND:KEY=VALUE,...' as for "
+          "`flexarm simulate --excitation`; None: bang-bang\n"
+          "  reference: of a closed loop in place of the excitation, an array in the unit of the "
+          "controller's sensor or such a text\n")
           .c_str());
-  module.def("simulate_experiment", &simulate_experiment, py::arg("arm"), py::arg("excitations"),
-             py::kw_only(), py::arg("references") = py::none(), py::arg("controller") = py::none(),
-             py::arg("progress") = py::none(),
-             (std::string("Several runs of an arm, each 'KIND:KEY=VALUE,...', which may have id, "
-                          "payload [kg] and purpose: SimulatedExperiment.") +
-              kSettings)
-                 .c_str());
+  module.def(
+      "simulate_experiment", &simulate_experiment, py::arg("arm"), py::arg("excitations"),
+      py::kw_only(), py::arg("references") = py::none(), py::arg("controller") = py::none(),
+      py::arg("progress") = py::none(),
+      text("Several runs of an arm: SimulatedExperiment.\n\nArguments:\n"
+           "  arm: the Arm\n"
+           "  excitations: a list of 'KIND:KEY=VALUE,...', which may have id, payload [kg] and "
+           "purpose\n"
+           "  references: of closed loops, a list of such texts\n")
+          .c_str());
   module.def("sampled_torque", &sampled_torque, py::arg("excitation"), py::kw_only(),
              py::arg("duration_s") = experiment::kDefaultDuration_s,
              py::arg("sample_time_s") = experiment::kDefaultPeriod_s,
-             "The torque of an excitation 'KIND:KEY=VALUE,...' [N m], array (samples,). Raises "
-             "InputError.");
+             "The torque of an excitation [N m], array (samples,). Raises InputError.\n\n"
+             "Arguments:\n  excitation: 'KIND:KEY=VALUE,...'\n  duration_s: its duration [s]\n"
+             "  sample_time_s: sampling period [s]");
+  add_pickle<Experiment>();
 }
 
 }  // namespace flexarm::python

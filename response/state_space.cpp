@@ -1,5 +1,6 @@
 #include "response/state_space.hpp"
 
+#include "arm/input_error.hpp"
 #include "response/frequency/modal_response.hpp"
 
 #include <Eigen/LU>
@@ -103,6 +104,9 @@ void add_sensor_chain(StateSpace& system, const SensorChain& chain) {
 StateSpace state_space(const arm::ModalModel& model, std::span<const arm::Sensor> sensors,
                        const LinearChain& chain) {
   require_consistent(model, sensors);
+  if (chain.delay_s < 0.0) {
+    throw arm::out_of_range("state space: delay of the torque", chain.delay_s, "s", "0 or more");
+  }
   StateSpace system = modes_alone(model, sensors);
   add_actuator(system, chain);
   for (const auto& of_sensor : chain.sensor_chains) add_sensor_chain(system, of_sensor);

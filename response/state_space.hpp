@@ -23,6 +23,7 @@ struct StateSpace {
   Eigen::VectorXd output_delay_s;    ///< one a sensor
   std::vector<std::string> states;   ///< "q_0", "q_0'", "q_1", ..., "hub torque", "reading of ..."
   std::vector<arm::Sensor> sensors;  ///< rows of C and D
+  std::vector<double> truncation_errors = {};  ///< response/truncation.hpp; empty: not estimated
 };
 
 /// The modes as a state space, (33)-(35) of the paper put right: X = (q_0, q_0', q_1, q_1', ...),

@@ -78,7 +78,8 @@ std::vector<Growth> growths_of(const Hypothesis& hypothesis) {
   for (const SearchedParameter& parameter : hypothesis.parameters) {
     if (const auto neutral = parameter.neutral_coordinate()) {
       up = std::max(up, 1.0 - *neutral);
-      down = std::max(down, *neutral);
+      // What is below 0 in a log, as a torque that is logged late, is no matter of the experiment.
+      if (parameter.spacing != effects::Spacing::about_zero) down = std::max(down, *neutral);
     } else {
       growth.other_places.push_back(kMiddle);
     }

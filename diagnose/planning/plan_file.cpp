@@ -1,7 +1,7 @@
 #include "arm/input_error.hpp"
 #include "diagnose/planning/measurement_plan.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/payload_keys.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_faults.hpp"
 #include "measured/files/toml_node.hpp"
@@ -349,8 +349,8 @@ MeasurementPlan parse_measurement_plan(std::string_view toml, const std::string&
 }
 
 MeasurementPlan read_measurement_plan(const std::filesystem::path& path) {
-  return parse_measurement_plan(measured::read_text_file(path, kLargestPlan_bytes),
-                                arm::shown(path.string()));
+  return measured::read_file_as(measured::FileKind::plan, path, kLargestPlan_bytes,
+                                parse_measurement_plan);
 }
 
 }  // namespace flexarm::diagnose

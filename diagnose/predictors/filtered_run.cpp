@@ -1,7 +1,7 @@
 #include "diagnose/predictors/filtered_run.hpp"
 
 #include "arm/input_error.hpp"
-#include "diagnose/predictors/initial_state.hpp"
+#include "compare/initial_state.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -91,7 +91,7 @@ response::FilterGains gains_of(const response::ArmSimulator& simulation,
   const Eigen::VectorXd deviations =
       run.deviations.transpose().replicate(static_cast<Index>(samples), 1).reshaped();
   const Eigen::VectorXd prior =
-      prior_of_state(simulation.free_readings(samples), deviations, run.values);
+      compare::prior_of_state(simulation.free_readings(samples), deviations, run.values);
   Eigen::MatrixXd covariance =
       Eigen::MatrixXd::Zero(system.transition.rows(), system.transition.cols());
   covariance.diagonal().head(prior.size()) = prior.cwiseAbs2();

@@ -24,34 +24,11 @@ struct Root {
   double damping_ratio = 0.0;
 };
 
-Root as_root(Complex s) {
-  return {std::abs(s) / (2.0 * std::numbers::pi), -s.real() / std::abs(s)};
-}
-
-/// Of two real poles the geometric mean is the natural frequency.
+/// Natural frequency |s|/2 pi; of two real roots their geometric mean.
 Root as_root(const arm::PolePair& pair) {
   const Complex sum = pair.first_rad_per_s + pair.second_rad_per_s;
   const double omega = std::sqrt(std::abs(pair.first_rad_per_s * pair.second_rad_per_s));
   return {omega / (2.0 * std::numbers::pi), -sum.real() / (2.0 * omega)};
-}
-
-/// The zero of the damped response beside an undamped one, by secant steps.
-Complex damped_zero(const exact_tf::ExactArm& exact, const arm::Sensor& sensor, Complex undamped) {
-  constexpr int kMostSteps = 20;
-  constexpr double kFound = 1e-10;
-  Complex before = undamped;
-  Complex now = undamped * Complex(1.0, 1e-3);
-  Complex value_before = exact.transfer_function(sensor, before);
-  for (int i = 0; i < kMostSteps; ++i) {
-    const Complex value = exact.transfer_function(sensor, now);
-    if (value == value_before) break;
-    const Complex step = value * (now - before) / (value - value_before);
-    before = now;
-    value_before = value;
-    now -= step;
-    if (std::abs(step) <= kFound * std::abs(now)) break;
-  }
-  return now;
 }
 
 /// The `count` lowest zeros on the imaginary axis, with Im s > 0.
@@ -74,6 +51,27 @@ std::vector<Complex> antiresonances(const exact_tf::ExactArm& exact, const arm::
                   arm::to_string(sensor), count, found.size(), most));
 }
 
+std::vector<Root> damped_antiresonances(const exact_tf::ExactArm& exact, const arm::Sensor& sensor,
+                                        int count) {
+  std::vector<Complex> undamped = antiresonances(exact, sensor, count);
+  undamped.resize(static_cast<std::size_t>(count));
+  std::vector<Root> roots;
+  for (const auto& pair : exact.damped_zeros(sensor, undamped).pairs) {
+    if (!pair) {
+      throw arm::InputError(fmt::format("{} zeros: not found with the damping of the arm",
+                                        arm::to_string(sensor)));
+    }
+    roots.push_back(as_root(*pair));
+  }
+  return roots;
+}
+
+std::vector<Root> damped_poles(const exact_tf::ExactArm& exact, int count) {
+  std::vector<Root> roots;
+  for (const auto& pair : exact.damped_poles(count).flexible) roots.push_back(as_root(pair));
+  return roots;
+}
+
 int highest_order(const measured::ModalTable& table, const ModalGroup& group) {
   int order = 1;
   for (const std::size_t i : group.entries) order = std::max(order, table[i].order.value());
@@ -85,29 +83,15 @@ int highest_order(const measured::ModalTable& table, const ModalGroup& group) {
 void predict_roots(const arm::Arm& arm, const measured::ModalTable& table,
                    Eigen::Ref<Eigen::VectorXd> values) {
   const exact_tf::ExactArm exact(response::take_apart(arm).linear, exact_tf::Arithmetic::working);
-  const bool is_damped = exact.linear().is_damped();
   Eigen::Index at = 0;
   for (const ModalGroup& group : modal_groups(table)) {
     const int count = highest_order(table, group);
-    std::vector<Complex> zeros;
-    arm::DampedPoleSet poles;
-    if (group.zeros_of) {
-      zeros = antiresonances(exact, *group.zeros_of, count);
-    } else {
-      poles = exact.damped_poles(count);
-    }
+    const std::vector<Root> roots = group.zeros_of ? damped_antiresonances(exact, *group.zeros_of, count)
+                                                   : damped_poles(exact, count);
     for (const std::size_t i : group.entries) {
       const measured::ModalEntry& entry = table[i];
       const auto k = static_cast<std::size_t>(entry.order.value() - 1);
-      Root root;
-      if (!group.zeros_of) {
-        root = as_root(poles.flexible.at(k));
-      } else {
-        root = as_root(zeros.at(k));
-        if (entry.damping_ratio && is_damped) {
-          root.damping_ratio = as_root(damped_zero(exact, *group.zeros_of, zeros[k])).damping_ratio;
-        }
-      }
+      const Root& root = roots.at(k);
       if (entry.frequency_Hz) values(at++) = root.frequency_Hz;
       if (entry.damping_ratio) values(at++) = root.damping_ratio;
     }

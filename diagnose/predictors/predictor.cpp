@@ -1,9 +1,11 @@
 #include "diagnose/predictors/predictor.hpp"
 
+#include "arm/input_error.hpp"
+#include "compare/simulated_run.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/predictors/predicted_roots.hpp"
-#include "diagnose/predictors/simulated_run.hpp"
 #include "response/frequency/frequency_response.hpp"
+#include "response/truncation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,11 +74,13 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold) {
 }
 
 Predictor::Predictor(const Experiment& experiment, const Observations& observations,
-                     int flexible_modes, std::optional<NoiseModel> noise)
+                     int flexible_modes, std::optional<NoiseModel> noise,
+                     const arm::Deadline& deadline)
     : experiment_(&experiment),
       flexible_modes_(flexible_modes),
       observations_(observations),
       noise_(std::move(noise)),
+      deadline_(deadline),
       models_(std::make_shared<ModalModels>(flexible_modes)),
       filters_(std::make_shared<RunFilters>(experiment.runs.size())),
       responses_(std::make_shared<ArmResponses>(experiment.runs.size())) {
@@ -93,10 +97,12 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
         response::options_of_fit(measured::sampling_period_s(*record), hold);
     auto at = std::ranges::find_if(conditions_, [&](const Condition& condition) {
       return condition.payload == payload && condition.sensors == sensors &&
+             condition.is_in_closed_loop == run.controller.has_value() &&
              condition.options.sample_time_s == options.sample_time_s &&
              condition.options.hold == options.hold;
     });
-    if (at == conditions_.end()) at = conditions_.insert(at, {payload, sensors, options, {}});
+    if (at == conditions_.end())
+      at = conditions_.insert(at, {payload, sensors, options, run.controller.has_value(), {}});
     at->runs.push_back(r);
   }
   if (!noise_) return;
@@ -119,13 +125,19 @@ void Predictor::for_each_time_run(const arm::Arm& arm, const std::vector<bool>& 
     arm::Arm with_payload = arm;
     with_payload.payload = condition.payload;
     response::ArmParts parts = response::take_apart(with_payload);
+    // A torque that is logged late acts at once in a loop.
+    double& delay_s = parts.actuator.delay_s;
+    if (condition.is_in_closed_loop) delay_s = std::max(0.0, delay_s);
     if (noise != nullptr) {
       parts.disturbance = {noise->is_torque_noise() ? 0.0 : noise->correlation_time_s};
     }
     if (is_driven_by_motion(*experiment_)) parts = response::with_driven_hub(std::move(parts));
     const auto model = models_->of(parts, condition.sensors);
     const response::ArmSimulator simulation(*model, parts, condition.sensors, condition.options);
-    in_parallel(simulated.size(), [&](std::size_t i) { use(simulated[i], simulation); });
+    in_parallel(simulated.size(), [&](std::size_t i) {
+      arm::require_time(deadline_);
+      use(simulated[i], simulation);
+    });
   });
 }
 
@@ -135,6 +147,7 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
   for (std::size_t r = 0; r < experiment_->runs.size(); ++r) {
     const auto& [run, data] = experiment_->runs[r];
     if (!runs[r]) continue;
+    arm::require_time(deadline_);
     with_payload.payload = run.payload.value_or(arm.payload);
     const auto [first, count] = stretch(r);
     if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
@@ -148,15 +161,21 @@ void Predictor::predict_other_runs(const arm::Arm& arm, const std::vector<bool>&
 Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<bool>& runs) const {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
   const Eigen::VectorXd weights = weighing_deviations(observations_);
+  const double logged_late_s = std::max(0.0, -response::take_apart(arm).actuator.delay_s);
   const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
     const auto [first, count] = stretch(r);
     const Eigen::VectorXd measured = observations_.values.segment(first, count);
     const Eigen::VectorXd deviations = weights.segment(first, count);
     const auto& run = experiment_->runs[r];
+    if (!is_driven_by_motion(*experiment_)) {
+      values.segment(first, count) =
+          compare::simulated_run(simulation, run, logged_late_s, measured, deviations, deadline_);
+      return;
+    }
+    const PrescribedMotion& hub = experiment_->motions[r].motion;
     values.segment(first, count) =
-        is_driven_by_motion(*experiment_)
-            ? driven_run(simulation, experiment_->motions[r].motion, run, measured, deviations)
-            : simulated_run(simulation, run, measured, deviations);
+        compare::driven_run(simulation, {hub.angle_rad, hub.velocity_rad_per_s},
+                            hub.acceleration_rad_per_s2, run, measured, deviations, deadline_);
   };
   for_each_time_run(arm, runs, nullptr, simulate);
   predict_other_runs(arm, runs, values);
@@ -286,7 +305,7 @@ std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
 constexpr double kMotionDoubt = 1.2;
 
 std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
-                                     int flexible_modes) {
+                                     int flexible_modes, const arm::Deadline& deadline) {
   Experiment displaced = experiment;
   for (auto& [sensor, noise, motion, error] : displaced.motions) {
     motion.angle_rad += error.angle_rad;
@@ -299,8 +318,8 @@ std::vector<double> errors_of_motion(const Experiment& experiment, const Observa
   const std::vector<bool> all(experiment.runs.size(), true);
   try {
     const Eigen::VectorXd off =
-        Predictor(displaced, observations, flexible_modes)(experiment.arm, all) -
-        Predictor(experiment, observations, flexible_modes)(experiment.arm, all);
+        Predictor(displaced, observations, flexible_modes, {}, deadline)(experiment.arm, all) -
+        Predictor(experiment, observations, flexible_modes, {}, deadline)(experiment.arm, all);
     for (std::size_t c = 0; c < made.size(); ++c) {
       const ObservedChannel& channel = observations.channels[c];
       const auto signal = observations.values.segment(channel.first, channel.count).array();
@@ -309,22 +328,65 @@ std::vector<double> errors_of_motion(const Experiment& experiment, const Observa
     }
   } catch (const std::runtime_error&) {
     // An arm that is none, or a simulation that overflows.
+  } catch (const arm::Cancelled&) {
   }
   return made;
 }
 
-ModeChoice modes_needed(const Experiment& experiment, const Observations& observations) {
+/// `choice` with the errors of modes beyond kMostModes, too, for runs and arms that
+/// response::truncation_in_time takes.
+ModeChoice with_truncation(const Experiment& experiment, const Observations& observations,
+                           const arm::Deadline& deadline, ModeChoice choice) {
+  if (is_driven_by_motion(experiment)) return choice;
+  for (std::size_t r = 0; r < experiment.runs.size() && !arm::is_over(deadline); ++r) {
+    const auto& [run, data] = experiment.runs[r];
+    if (run.kind != measured::RunKind::time) continue;
+    const auto& record = std::get<measured::TimeRecord>(data);
+    std::vector<double> errors;
+    try {
+      errors = response::truncation_in_time(arm_in(experiment, run), sensors_of(record),
+                                            record.torque_N_m, measured::sampling_period_s(record),
+                                            simulated_hold(run.torque_hold),
+                                            {.given = choice.flexible_modes})
+                   .errors;
+    } catch (const arm::InputError&) {
+      continue;
+    }
+    // The torque of a closed loop stands behind the sensors.
+    std::size_t sensor = 0;
+    for (std::size_t c = 0; c < observations.channels.size() && sensor < errors.size(); ++c) {
+      if (observations.channels[c].run != r) continue;
+      choice.errors[c] = std::max(choice.errors[c], errors[sensor++]);
+    }
+  }
+  return choice;
+}
+
+ModeChoice modes_needed(const Experiment& experiment, const Observations& observations,
+                        const arm::Deadline& deadline) {
   std::vector<bool> runs;
   for (const auto& run : experiment.runs) {
     runs.push_back(run.run.kind == measured::RunKind::time);
   }
-  ModeChoice choice{kFewestModes, std::vector<double>(observations.channels.size(), 0.0)};
+  const ModeChoice fewest{kFewestModes, std::vector<double>(observations.channels.size(), 0.0)};
+  ModeChoice choice = fewest;
   if (std::ranges::count(runs, true) == 0) return choice;
-  const Eigen::VectorXd most =
-      Predictor(experiment, observations, kMostModes)(experiment.arm, runs);
+  const auto shown = [&](int flexible_modes) {
+    return Predictor(experiment, observations, flexible_modes, {}, deadline)(experiment.arm, runs);
+  };
+  Eigen::VectorXd most;
+  try {
+    most = shown(kMostModes);
+  } catch (const arm::Cancelled&) {
+    return fewest;
+  }
   for (; choice.flexible_modes < kMostModes; choice.flexible_modes += 2) {
-    const Eigen::VectorXd off =
-        Predictor(experiment, observations, choice.flexible_modes)(experiment.arm, runs) - most;
+    Eigen::VectorXd off;
+    try {
+      off = shown(choice.flexible_modes) - most;
+    } catch (const arm::Cancelled&) {
+      return fewest;
+    }
     bool is_enough = true;
     for (std::size_t c = 0; c < observations.channels.size(); ++c) {
       const ObservedChannel& channel = observations.channels[c];
@@ -340,9 +402,9 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
       choice.errors[c] = error > 0.0 ? error / signal : 0.0;
       is_enough = is_enough && choice.errors[c] <= std::max(kModeError, 0.1 * channel.noise);
     }
-    if (is_enough) return choice;
+    if (is_enough) break;
   }
-  return choice;
+  return with_truncation(experiment, observations, deadline, std::move(choice));
 }
 
 }  // namespace flexarm::diagnose

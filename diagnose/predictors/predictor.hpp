@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/deadline.hpp"
 #include "diagnose/experiment.hpp"
 #include "diagnose/observations.hpp"
 #include "diagnose/predictors/arm_responses.hpp"
@@ -40,8 +41,10 @@ class Predictor {
   /// `flexible_modes` move in a simulated run, which is stepped as response::options_of_fit where
   /// forces are not linear; poles, zeros and frequency responses are exact. A run from an unknown
   /// state begins in the most likely one. `experiment` must outlive the object.
+  /// After the deadline what evaluates a run throws arm::Cancelled, this constructor with a noise
+  /// model included.
   Predictor(const Experiment& experiment, const Observations& observations, int flexible_modes,
-            std::optional<NoiseModel> noise = {});
+            std::optional<NoiseModel> noise = {}, const arm::Deadline& deadline = {});
 
   /// What the arm shows by output error: one number for each of the experiment's `Observations`,
   /// run after run, of those `runs` alone; the others are 0. `arm` is the experiment's with
@@ -89,6 +92,8 @@ class Predictor {
 
   int flexible_modes() const { return flexible_modes_; }
   const std::optional<NoiseModel>& noise() const { return noise_; }
+  const arm::Deadline& deadline() const { return deadline_; }
+  void set_deadline(const arm::Deadline& deadline) { deadline_ = deadline; }
   bool is_torque_balance() const { return noise_ && noise_->balance_unit_N_m; }
 
  private:
@@ -97,6 +102,7 @@ class Predictor {
     arm::Payload payload;
     std::vector<arm::Sensor> sensors;
     response::SimulationOptions options;
+    bool is_in_closed_loop = false;
     std::vector<std::size_t> runs;
   };
   using UseSimulation = std::function<void(std::size_t run, const response::ArmSimulator&)>;
@@ -118,6 +124,7 @@ class Predictor {
   int flexible_modes_;
   Observations observations_;
   std::optional<NoiseModel> noise_;
+  arm::Deadline deadline_;
   // Copies share these.
   std::shared_ptr<ModalModels> models_;
   std::shared_ptr<RunFilters> filters_;
@@ -135,15 +142,18 @@ struct ModeChoice {
 
 /// The fewest modes with which the simulated runs are within `kModeError` of a signal's deviation,
 /// or a tenth of its noise if that is more, of those with `kMostModes`; these where none suffice.
-ModeChoice modes_needed(const Experiment& experiment, const Observations& observations);
+/// The errors are those, or response::truncation_in_time where that is more.
+/// After the deadline kFewestModes, without errors.
+ModeChoice modes_needed(const Experiment& experiment, const Observations& observations,
+                        const arm::Deadline& deadline = {});
 inline constexpr double kModeError = 1e-4;
 inline constexpr int kFewestModes = 4;
 inline constexpr int kMostModes = 16;
 
 /// Of an experiment that is driven by motion: what the error of the motion (MeasuredMotion::error)
 /// adds to what the arm as filed shows, of each channel the root mean square over the deviation of
-/// the measured signal. Of an arm that cannot be computed 0.
+/// the measured signal. Of an arm that cannot be computed, and after the deadline, 0.
 std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
-                                     int flexible_modes);
+                                     int flexible_modes, const arm::Deadline& deadline = {});
 
 }  // namespace flexarm::diagnose

@@ -70,9 +70,8 @@ std::optional<Experiment> as_responses(const Experiment& experiment) {
     }
   }
   if (!has(made, Purpose::estimation, measured::RunKind::frf)) return std::nullopt;
-  const bool loses_validation =
-      has(experiment, Purpose::validation, measured::RunKind::time) &&
-      !has(made, Purpose::validation, measured::RunKind::frf);
+  const bool loses_validation = has(experiment, Purpose::validation, measured::RunKind::time) &&
+                                !has(made, Purpose::validation, measured::RunKind::frf);
   if (loses_validation) return std::nullopt;
   return made;
 }

@@ -47,6 +47,10 @@ const std::vector<double> kSpread = {0.15, kMiddle, 0.85};
 std::vector<double> first_places(const SearchedParameter& parameter) {
   const auto neutral = parameter.neutral_coordinate();
   if (!neutral) return kSpread;
+  if (parameter.spacing == effects::Spacing::about_zero) {
+    return {parameter.coordinate(0.75 * parameter.lowest),
+            *neutral + kSpread.front() * (1.0 - *neutral), *neutral + kMiddle * (1.0 - *neutral)};
+  }
   if (*neutral > 0.0 && *neutral < 1.0) {
     std::vector<double> places;
     for (const double change : {0.004, -0.03, 0.03}) places.push_back(*neutral + change);
@@ -85,15 +89,21 @@ std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& p
   const auto sized = hypothesis.size_parameter();
   const double neutral = sized ? *hypothesis.parameters[*sized].neutral_coordinate() : 0.0;
   if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
+  const SearchedParameter& parameter = hypothesis.parameters[*sized];
+  if (parameter.spacing == effects::Spacing::about_zero) {
+    const double value = parameter.value(places[*sized]);
+    return std::minmax(parameter.lowest / value, parameter.highest / value);
+  }
   const double change = places[*sized] - neutral;
   return std::minmax(-neutral / change, (1.0 - neutral) / change);
 }
 
-/// The place at which a parameter does `size` times what it does at `place`. From zero or
-/// infinity an effect is proportional to the value or its reciprocal.
+/// The place at which a parameter does `size` times what it does at `place`. From or about zero an
+/// effect is proportional to the value, from infinity to its reciprocal.
 double place_at(const SearchedParameter& parameter, double place, double size) {
   switch (parameter.spacing) {
     case effects::Spacing::from_zero:
+    case effects::Spacing::about_zero:
       return parameter.coordinate(size * parameter.value(place));
     case effects::Spacing::from_infinity:
       return parameter.coordinate(parameter.value(place) / size);

@@ -4,9 +4,9 @@
 #include "diagnose/search/hub_torque_probes.hpp"
 #include "diagnose/search/refit_projection.hpp"
 #include "diagnose/search/residual_test.hpp"
+#include "measured/spectra/tail_probability.hpp"
 
 #include <Eigen/QR>
-#include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <array>
@@ -104,7 +104,7 @@ struct ScoredRuns {
     const double z = beyond.dot(residuals) / size;
     const double along = relative_size(problem, beyond * (z / size), runs);
     if (along <= negligible_dependence(problem)) return 1.0;
-    return 2.0 * boost::math::cdf(complement(boost::math::normal(), std::abs(z)));
+    return measured::normal_tails(z);
   }
   /// Less of a change than this beyond refitting is rounding.
   static constexpr double kLeastPart = 1e-4;

@@ -63,7 +63,7 @@ Problem filtered_problem(const Experiment& experiment, int flexible_modes,
                          const SelectionOptions& options) {
   const auto decimated = std::make_shared<const Experiment>(
       decimated_whole(without_controllers(experiment), options.filtered_samples));
-  return {decimated, {.flexible_modes = flexible_modes}};
+  return {decimated, {.flexible_modes = flexible_modes, .deadline = options.deadline}};
 }
 
 /// With the readings of hub sensors alone.
@@ -136,9 +136,10 @@ std::vector<RunDrift> PredictedSelection::all_inconsistent() const {
   return made;
 }
 
-std::optional<EmpiricalLaw> PredictedSelection::law_beside_causes() const {
+std::optional<EmpiricalLaw> PredictedSelection::law_beside_causes(const Deadline& deadline) const {
   if (law) return law->found;
-  return empirical_law(balance.value(), simulated, selection.chosen.fit.candidate);
+  return empirical_law(balance.value().until(deadline), simulated.until(deadline),
+                       selection.chosen.fit.candidate);
 }
 
 DiagnosisProgress part_of(const DiagnosisProgress& progress, double from, double to) {
@@ -182,7 +183,8 @@ PredictedSelection select_by_motion(const SelectionTask& task, const Experiment&
   std::vector<Hypothesis> searched = task.hypotheses;
   std::erase_if(searched, [](const Hypothesis& one) { return !acts_beside_motion(one); });
   const Problem driven(
-      std::make_shared<const Experiment>(driven_by_motion(without_controllers(experiment))), {});
+      std::make_shared<const Experiment>(driven_by_motion(without_controllers(experiment))),
+      {.deadline = task.options.deadline});
   return select_by_simulation({searched, task.options}, driven, progress);
 }
 
@@ -267,7 +269,7 @@ std::optional<PredictedSelection> select_with_torque_noise(const SelectionTask& 
   options.deadline = halfway(options.deadline);
   try {
     const auto noisy = with_torque_noise(
-        filtered_problem(problem.experiment(), problem.predictor().flexible_modes(), task.options));
+        filtered_problem(problem.experiment(), problem.predictor().flexible_modes(), options));
     if (!noisy) return std::nullopt;
     Selection selection = select(*noisy, task.hypotheses, options, progress);
     const arm::Arm arm = selection.chosen.fit.candidate.extend(noisy->experiment().arm);
@@ -284,12 +286,15 @@ std::optional<PredictedSelection> select_with_torque_noise(const SelectionTask& 
         .simulated = problem.with_more_noise(errors_of_torque(problem))};
   } catch (const arm::InputError&) {
     return std::nullopt;  // sensors that are too late for a Kalman filter
+  } catch (const Cancelled&) {
+    return std::nullopt;  // the deadline: `select` takes back what the user cancels
   }
 }
 
 std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,
                                                       const PredictedSelection& by_simulation,
                                                       const DiagnosisProgress& progress) {
+  if (is_over(task.options.deadline)) return std::nullopt;
   auto responses = as_responses(by_simulation.simulated.experiment());
   if (!responses) return std::nullopt;
   std::vector<Hypothesis> searched = task.hypotheses;

@@ -46,7 +46,7 @@ struct PredictedSelection {
   /// Neither `selection` nor `by_motion` has a cause.
   bool names_nothing() const { return whole(selection.chosen.fit.candidate).effects.empty(); }
   /// `law`, or now. `balance` must have been formed.
-  std::optional<EmpiricalLaw> law_beside_causes() const;
+  std::optional<EmpiricalLaw> law_beside_causes(const Deadline& deadline) const;
 };
 
 /// What is done by whichever predictor; both must outlive the object.

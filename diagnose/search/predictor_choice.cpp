@@ -36,10 +36,11 @@ bool fits_time_runs(const Experiment& experiment) {
 /// Else, and by output error where that is asked for, from the recorded torque; `note` says why.
 Problem simulated_problem(const Experiment& experiment, const SelectionOptions& options,
                           std::string& note) {
-  if (!has_controllers(experiment)) return Problem(experiment);
+  const ProblemOptions until_then{.deadline = options.deadline};
+  if (!has_controllers(experiment)) return Problem(experiment, until_then).until({});
   if (options.predictor != PredictorKind::output_error) {
     try {
-      Problem loop(experiment);
+      const Problem loop = Problem(experiment, until_then).until({});
       const auto left = loop.residuals(loop.as_filed(), loop.estimation_runs());
       const auto& runs = loop.estimation_runs();
       if (left && misfit(loop.observations(), experiment, *left, runs).relative_error < kDiverged) {
@@ -54,7 +55,8 @@ Problem simulated_problem(const Experiment& experiment, const SelectionOptions& 
           fmt::format("predictor closed_loop: {}", note.substr(0, note.rfind(';'))));
     }
   }
-  return Problem(std::make_shared<const Experiment>(without_controllers(experiment)), {});
+  return Problem(std::make_shared<const Experiment>(without_controllers(experiment)), until_then)
+      .until({});
 }
 
 /// Root mean square of what the chosen effects leave, over that of the noise.
@@ -67,12 +69,13 @@ double over_noise(const Selection& selection) {
 /// Whether responses are nearer to their noise with what they identify than simulations are with
 /// what these do. With the effects of the former a simulation may err no more than the baseline,
 /// and, refitted, no more than with those of the latter: what shows in time alone, as dry friction
-/// does, is noise of a response.
-bool responses_are_better(const PredictedSelection& by_responses, const PredictedSelection& made) {
+/// does, is noise of a response. Throws Cancelled after the deadline.
+bool responses_are_better(const PredictedSelection& by_responses, const PredictedSelection& made,
+                          const Deadline& deadline) {
   const Candidate& named = by_responses.selection.chosen.fit.candidate;
   if (named.effects.empty()) return false;
   if (!(over_noise(by_responses.selection) < over_noise(made.selection))) return false;
-  const Problem& simulated = made.simulated;
+  const Problem simulated = made.simulated.until(deadline);
   const auto& arm = simulated.experiment().arm;
   const double baseline_error = simulated.judged_error(simulated.as_filed().extend(arm));
   if (simulated.judged_error(named.extend(arm)) > kAbout * baseline_error) return false;
@@ -107,23 +110,11 @@ PredictedSelection without_torque_noise(PredictedSelection noisy, const Selectio
   return exact;
 }
 
-/// By simulation, and where that does not leave noise by a filter; the first of them in
-/// kSimulationTime of the time.
-PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
-                                  const DiagnosisProgress& progress) {
-  if (auto noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5))) {
-    if (noisy->selection.cancelled || noisy->names_nothing()) return *std::move(noisy);
-    return without_torque_noise(*std::move(noisy), task, problem, part_of(progress, 0.5, 1.0));
-  }
-  SelectionOptions first = task.options;
-  first.deadline = after_part(task.options.deadline, kSimulationTime);
-  PredictedSelection made =
-      select_by_simulation({task.hypotheses, first}, problem, part_of(progress, 0.0, 0.5));
-  if (made.selection.cancelled) return made;
-  if (made.selection.chosen.leaves_noise()) {
-    made.reason = "its residuals are noise";
-    return made;
-  }
+/// Where `made` by simulation does not leave noise: with refitted numbers, by responses or by a
+/// filter. Throws Cancelled after the deadline, with `made` as it was.
+PredictedSelection select_beyond_simulation(PredictedSelection& made, const SelectionTask& task,
+                                            const Problem& problem,
+                                            const DiagnosisProgress& progress) {
   // Refitted numbers do not bring a simulation near the data that no effect brings near.
   if (!is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
     auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
@@ -132,7 +123,7 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
   made.reason = "an unrecorded torque on the hub explains little of what it leaves";
   if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {
     if (responses->selection.cancelled) return *std::move(responses);
-    if (responses_are_better(*responses, made)) {
+    if (responses_are_better(*responses, made, task.options.deadline)) {
       responses->inconsistent = made.selection.inconsistent;
       responses->reason = fmt::format(
           "their residuals have {:.3g} times the standard deviation of their noise; those of a "
@@ -143,16 +134,16 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
   }
   try {
     auto filtered = select_by_filter(task, made, part_of(progress, 0.7, 1.0));
-    if (!filtered) return made;
+    if (!filtered) return std::move(made);
     Selection& other = filtered->selection;
     if (other.end && filtered->names_nothing()) {
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = other.end;
-      return made;
+      return std::move(made);
     }
     // Only without causes: a cause that is named where such a law acts explains a part of it.
     if (filtered->names_nothing() && filtered->balance) {
-      filtered->law = SoughtLaw{filtered->law_beside_causes()};
+      filtered->law = SoughtLaw{filtered->law_beside_causes(task.options.deadline)};
     }
     const double by_filter = error_by_filter(*filtered);
     const double by_simulation = simulated_error(made);
@@ -170,14 +161,38 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
         filtered->predictor == PredictorKind::torque_balance ? "torque balance"
                                                              : "stochastic grey box",
         100.0 * by_filter, 100.0 * by_simulation);
+  } catch (const arm::InputError& error) {
+    made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
+  }
+  return std::move(made);
+}
+
+/// By simulation, and where that does not leave noise by a filter; the first of them in
+/// kSimulationTime of the time.
+PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
+                                  const DiagnosisProgress& progress) {
+  if (auto noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5))) {
+    if (noisy->selection.cancelled || noisy->names_nothing()) return *std::move(noisy);
+    return without_torque_noise(*std::move(noisy), task, problem, part_of(progress, 0.5, 1.0));
+  }
+  SelectionOptions first = task.options;
+  first.deadline = after_part(task.options.deadline, kSimulationTime);
+  PredictedSelection made =
+      select_by_simulation({task.hypotheses, first}, problem, part_of(progress, 0.0, 0.5));
+  if (made.selection.cancelled) return made;
+  if (made.selection.chosen.leaves_noise()) {
+    made.reason = "its residuals are noise";
+    return made;
+  }
+  try {
+    require_time(task.options.deadline);
+    return select_beyond_simulation(made, task, problem, progress);
   } catch (const Cancelled&) {
     made.selection.cancelled = !is_over(task.options.deadline);
     if (!made.selection.cancelled) {
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = SearchEnd{kNoiseStage, {}};
     }
-  } catch (const arm::InputError& error) {
-    made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
   }
   return made;
 }

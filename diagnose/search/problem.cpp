@@ -43,16 +43,17 @@ void widen(Observations& observations, const std::vector<double>& errors) {
 Predictor predictor_for(const Experiment& experiment, Observations& observations,
                         const ProblemOptions& options) {
   ModeChoice modes{options.flexible_modes.value_or(0)};
-  if (!options.flexible_modes) modes = modes_needed(experiment, observations);
+  if (!options.flexible_modes) modes = modes_needed(experiment, observations, options.deadline);
   if (is_driven_by_motion(experiment)) {
     modes.errors.resize(observations.channels.size(), 0.0);
-    const auto of_motion = errors_of_motion(experiment, observations, modes.flexible_modes);
+    const auto of_motion =
+        errors_of_motion(experiment, observations, modes.flexible_modes, options.deadline);
     for (std::size_t c = 0; c < of_motion.size(); ++c) {
       modes.errors[c] = std::hypot(modes.errors[c], of_motion[c]);
     }
   }
   widen(observations, modes.errors);
-  return {experiment, observations, modes.flexible_modes, options.noise};
+  return {experiment, observations, modes.flexible_modes, options.noise, options.deadline};
 }
 
 }  // namespace
@@ -90,14 +91,25 @@ double Problem::judged_error(const arm::Arm& arm) const {
 
 Problem Problem::with_modes(int flexible_modes) const {
   Problem made = *this;
-  made.predictor_ = Predictor(*experiment_, observations_, flexible_modes, predictor_.noise());
+  made.predictor_ = predictor_with(flexible_modes, predictor_.noise());
   return made;
 }
 
 Problem Problem::with_noise(const NoiseModel& noise) const {
   Problem made = *this;
-  made.predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), noise);
+  made.predictor_ = predictor_with(predictor_.flexible_modes(), noise);
   return made;
+}
+
+Problem Problem::until(const arm::Deadline& deadline) const {
+  Problem made = *this;
+  made.predictor_.set_deadline(deadline);
+  return made;
+}
+
+Predictor Problem::predictor_with(int flexible_modes,
+                                  const std::optional<NoiseModel>& noise) const {
+  return {*experiment_, observations_, flexible_modes, noise, predictor_.deadline()};
 }
 
 HubLaws& Problem::hub_laws() const {
@@ -118,8 +130,7 @@ void Problem::replace_torques(Experiment experiment) {
   laws_.forget();
   own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
   experiment_ = own_experiment_.get();
-  predictor_ =
-      Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
+  predictor_ = predictor_with(predictor_.flexible_modes(), predictor_.noise());
 }
 
 bool Problem::lower_noise(const Candidate& candidate) {
@@ -144,8 +155,7 @@ bool Problem::lower_noise(const Candidate& candidate) {
   if (fell) {
     laws_.forget();
     observations_ = std::move(lowered);
-    predictor_ =
-        Predictor(*experiment_, observations_, predictor_.flexible_modes(), predictor_.noise());
+    predictor_ = predictor_with(predictor_.flexible_modes(), predictor_.noise());
   }
   return fell;
 }
@@ -167,8 +177,7 @@ Problem Problem::with_more_noise(const std::vector<double>& more) const {
     channel.noise = std::hypot(channel.noise, more[c]);
     made.observations_.deviations.segment(channel.first, channel.count) *= channel.floor() / before;
   }
-  made.predictor_ =
-      Predictor(*experiment_, made.observations_, predictor_.flexible_modes(), predictor_.noise());
+  made.predictor_ = made.predictor_with(predictor_.flexible_modes(), predictor_.noise());
   return made;
 }
 
@@ -191,8 +200,7 @@ std::optional<Problem> Problem::with_coloured_noise(const Candidate& candidate) 
     own /= seen;
     channel.autoregression = Autoregression(own, kMostNoiseOrder);
   }
-  made.predictor_ =
-      Predictor(*experiment_, made.observations_, predictor_.flexible_modes(), predictor_.noise());
+  made.predictor_ = made.predictor_with(predictor_.flexible_modes(), predictor_.noise());
   return made;
 }
 
@@ -217,7 +225,7 @@ bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> g
     found.model.balance_unit_N_m =
         estimated_disturbance_N_m(predictor_, arm, estimation_runs_, found.model);
   }
-  predictor_ = Predictor(*experiment_, observations_, predictor_.flexible_modes(), found.model);
+  predictor_ = predictor_with(predictor_.flexible_modes(), found.model);
   return true;
 }
 

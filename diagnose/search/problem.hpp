@@ -21,6 +21,7 @@ struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
   /// Of `time` runs: stochastic grey box with it, output error without.
   std::optional<NoiseModel> noise = {};
+  arm::Deadline deadline = {};  ///< of its evaluations (Predictor); those for the modes end with it
 };
 
 /// An experiment with all that is needed to hold a candidate against it.
@@ -55,6 +56,8 @@ class Problem {
   /// The same simulated with so many modes, or by a filter.
   Problem with_modes(int flexible_modes) const;
   Problem with_noise(const NoiseModel& noise) const;
+  /// The same with another deadline of its evaluations, or none.
+  Problem until(const arm::Deadline& deadline) const;
 
   /// The same with what `experiment`, which the object keeps, has for torques.
   void replace_torques(Experiment experiment);
@@ -104,6 +107,9 @@ class Problem {
   HubLaws& hub_laws() const;
 
  private:
+  /// Of this experiment and these observations, with the predictor's deadline.
+  Predictor predictor_with(int flexible_modes, const std::optional<NoiseModel>& noise) const;
+
   /// Made of one problem: a copy makes its own.
   class KeptLaws {
    public:

@@ -1,13 +1,12 @@
 #pragma once
 
+#include "arm/deadline.hpp"
 #include "diagnose/parallel.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -18,26 +17,12 @@ namespace flexarm::diagnose {
 /// false cancels.
 using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
-/// When work must end with what it has; none: whenever it is done.
-using Deadline = std::optional<std::chrono::steady_clock::time_point>;
-
-inline bool is_over(const Deadline& deadline) {
-  return deadline && std::chrono::steady_clock::now() >= *deadline;
-}
-
-/// Of the first of two pieces of work: after this part of the time that is left.
-inline Deadline after_part(const Deadline& deadline, double part) {
-  if (!deadline) return deadline;
-  using Clock = std::chrono::steady_clock;
-  const auto now = Clock::now();
-  return now + std::chrono::duration_cast<Clock::duration>(part * (*deadline - now));
-}
-inline Deadline halfway(const Deadline& deadline) {
-  return after_part(deadline, 0.5);
-}
-
-/// Thrown out of work that was cancelled, or whose time is over.
-struct Cancelled {};
+using arm::after_part;
+using arm::Cancelled;
+using arm::Deadline;
+using arm::halfway;
+using arm::is_over;
+using arm::require_time;
 
 /// Work on all cores that tells how far it is. Throws Cancelled where the progress function
 /// cancels, and after the deadline.

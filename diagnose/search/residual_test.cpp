@@ -1,42 +1,21 @@
 #include "diagnose/search/residual_test.hpp"
 
 #include "diagnose/search/misfit.hpp"
-
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/non_central_chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
+#include "measured/spectra/correlation.hpp"
+#include "measured/spectra/tail_probability.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace flexarm::diagnose {
-
-namespace {
-
-using Eigen::Index;
-
-/// n (n + 2) sum_l rho_l^2/(n - l s) over lags l of `stride` s numbers each. The autocorrelation is
-/// about zero, which Boost's is not: a constant residual is no noise.
-double ljung_box(const Eigen::Ref<const Eigen::VectorXd>& residuals, int lags, Index stride) {
-  const Index n = residuals.size();
-  const double squares = residuals.squaredNorm();
-  if (!(squares > 0.0)) return 0.0;
-  double sum = 0.0;
-  for (int lag = 1; lag <= lags; ++lag) {
-    const Index rest = n - lag * stride;
-    const double rho = residuals.head(rest).dot(residuals.tail(rest)) / squares;
-    sum += rho * rho / static_cast<double>(rest);
-  }
-  return static_cast<double>(n) * static_cast<double>(n + 2) * sum;
-}
-
-}  // namespace
 
 double bonferroni(double p_value, double tests) {
   return std::min(1.0, tests * p_value);
 }
 
 double exceedance(double value, double n, double lambda) {
+  if (std::isnan(value)) return 0.0;  // residuals that are no numbers are no noise
   // Chernoff: P(chi^2_n < z n) <= exp(-n (z - 1 - ln z)/2) for z < 1, less with lambda. Beyond the
   // rounding of 1 this is 1, and Boost's incomplete gamma function overflows for n above 3500.
   const double z = std::max(value, 0.0) / n;
@@ -44,20 +23,14 @@ double exceedance(double value, double n, double lambda) {
   // Above this the series of the noncentral distribution is long, and Sankaran's normal
   // approximation [Sankaran1963] is good to 1e-4.
   constexpr double kLarge = 1e4;
-  if (n + lambda <= kLarge) {
-    if (lambda <= 0.0) {
-      return boost::math::cdf(complement(boost::math::chi_squared(n), value));
-    }
-    return boost::math::cdf(complement(boost::math::non_central_chi_squared(n, lambda), value));
-  }
+  if (n + lambda <= kLarge) return measured::chi_squared_tail(value, n, lambda);
   const double sum = n + lambda;
   const double h = 1.0 - 2.0 * sum * (n + 3.0 * lambda) / (3.0 * std::pow(n + 2.0 * lambda, 2));
   const double p = (n + 2.0 * lambda) / (sum * sum);
   const double m = (h - 1.0) * (1.0 - 3.0 * h);
   const double mean = 1.0 + h * p * (h - 1.0 - 0.5 * (2.0 - h) * m * p);
   const double deviation = h * std::sqrt(2.0 * p * (1.0 + 0.5 * m * p));
-  return boost::math::cdf(
-      complement(boost::math::normal(mean, deviation), std::pow(value / sum, h)));
+  return 0.5 * std::erfc((std::pow(value / sum, h) - mean) / (deviation * std::numbers::sqrt2));
 }
 
 double residual_variance(const ObservedChannel& channel, double relative_error) {
@@ -90,7 +63,8 @@ ResidualTest test_residuals(const Observations& observations, const Experiment& 
     const int lags = std::min(kLags, static_cast<int>(channel.count / 4));
     if (kind == measured::RunKind::modal || lags == 0) continue;
     // Real and imaginary part of a line stand side by side.
-    whiteness.value += ljung_box(part, lags, is_simulated ? 1 : 2);
+    whiteness.value += measured::ljung_box({part.data(), static_cast<std::size_t>(part.size())},
+                                           lags, is_simulated ? 1 : 2);
     whiteness.freedom += lags;
     whiteness.lambda += n * lags * std::pow(granted / (1.0 + granted), 2);
   }

@@ -3,10 +3,8 @@
 #include "arm/linear_arm.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
+#include "measured/spectra/tail_probability.hpp"
 #include "response/formulation_maker.hpp"
-
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/complement.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +135,8 @@ std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candi
   for (const RunValue& value : made.values) {
     made.chi_squared += std::pow((value.value - made.mean) / value.std_error, 2);
   }
-  const boost::math::chi_squared distribution(static_cast<double>(made.values.size() - 1));
-  made.probability = boost::math::cdf(boost::math::complement(distribution, made.chi_squared));
+  made.probability =
+      measured::chi_squared_tail(made.chi_squared, static_cast<double>(made.values.size() - 1));
   return made;
 }
 

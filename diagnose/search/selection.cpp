@@ -32,6 +32,7 @@ std::vector<Candidate> candidates_of(const std::vector<Explanation>& sets) {
   return candidates;
 }
 
+constexpr std::string_view kNothing = "the arm as filed";
 constexpr std::string_view kSingles = "effects one by one";
 constexpr std::string_view kSets = "sets of effects";
 constexpr std::string_view kExchanged = "exchanged effects";
@@ -40,7 +41,7 @@ class Search {
  public:
   Search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
          const SelectionOptions& options, const DiagnosisProgress& progress)
-      : problem_(problem),
+      : problem_(problem.until(options.deadline)),
         hypotheses_(hypotheses),
         options_(options),
         work_(progress, options.deadline),
@@ -50,13 +51,6 @@ class Search {
         revision_(problem_, options, fits_, work_) {}
 
   Selection run() {
-    Selection made = found();
-    made.problem = problem_;
-    return made;
-  }
-
- private:
-  Selection found() {
     Selection made{.problem = problem_, .hypotheses = hypotheses_.size()};
     try {
       search(made);
@@ -66,10 +60,13 @@ class Search {
     }
     made.rivals = indistinguishable_sets(made, posterior_of(made, options_));
     std::ranges::stable_sort(made.ruled_out, std::ranges::greater{}, &RuledOut::share);
+    made.problem = problem_.until({});
     return made;
   }
 
+ private:
   void search(Selection& made) {
+    work_.tell(kNothing, 0.0);
     made.nothing = fits_.fitted(fits_.scan().first_look(problem_.as_filed()).candidate);
     made.chosen = made.nothing;
     revision_.see_noise(made);
@@ -91,6 +88,7 @@ class Search {
   void end_search(Selection& made) {
     made.end = SearchEnd{std::string(work_.what()), fits_.untried()};
     work_.lift_deadline();
+    problem_ = problem_.until({});
     if (made.nothing.fit.residuals.size() == 0) {
       made.end->untried = labels_with({}, general_.others());
       made.nothing = explain(problem_, fit(problem_, problem_.as_filed(), {.most_steps = 0}));
@@ -344,13 +342,13 @@ class Search {
 
   /// Without the causes that may not be named, one after the other: those with a parameter that the
   /// data do not identify, those whose estimates are inconsistent between runs, then the improbable
-  /// ones.
+  /// ones. Where the time is over, runs are not fitted one by one.
   void leave_out_unnamed(Selection& made) {
     if (runs_away(made.chosen, options_)) made.chosen = made.nothing;
     while (!made.chosen.fit.candidate.effects.empty()) {
       const Candidate& candidate = made.chosen.fit.candidate;
       auto unnamed = unidentified_effect(candidate, stated_errors(made.chosen));
-      if (!unnamed) unnamed = inconsistent_cause(made);
+      if (!unnamed && !made.end) unnamed = inconsistent_cause(made);
       if (!unnamed) unnamed = improbable_effect(made, options_);
       if (!unnamed) return;
       made.chosen = replacements_.without(made, candidate, *unnamed);

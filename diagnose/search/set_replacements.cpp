@@ -50,7 +50,8 @@ Explanation SetReplacements::without(Selection& made, const Candidate& candidate
   const Candidate rest = candidate.without(index);
   auto& kept = made.sets_like(rest);
   const auto same = find_set(kept, rest);
-  return made.end && same != kept.end() ? *same : fits_.fitted(rest);
+  if (!made.end) return fits_.fitted(rest);
+  return same != kept.end() ? *same : made.nothing;
 }
 
 bool SetReplacements::clears_limits(Selection& made, const Explanation& fuller) const {

@@ -58,12 +58,13 @@ std::vector<double> errors_of_torque(const Problem& problem) {
   const Observations& observations = problem.observations();
   const arm::Arm& arm = problem.experiment().arm;
   const int modes = problem.predictor().flexible_modes();
+  const arm::Deadline& deadline = problem.predictor().deadline();
   const std::vector<bool> all(problem.experiment().runs.size(), true);
   std::vector<double> squares(observations.channels.size(), 0.0);
   response::RandomNumbers random(1);
   try {
     const Eigen::VectorXd simulated =
-        Predictor(problem.experiment(), observations, modes)(arm, all);
+        Predictor(problem.experiment(), observations, modes, {}, deadline)(arm, all);
     for (int draw = 0; draw < kTorqueDraws; ++draw) {
       Experiment noisy = problem.experiment();
       for (std::size_t r = 0; r < noisy.runs.size(); ++r) {
@@ -71,7 +72,8 @@ std::vector<double> errors_of_torque(const Problem& problem) {
         if (record == nullptr) continue;
         for (double& torque : record->torque_N_m) torque += noise_N_m[r] * random.normal();
       }
-      const Eigen::VectorXd off = Predictor(noisy, observations, modes)(arm, all) - simulated;
+      const Eigen::VectorXd off =
+          Predictor(noisy, observations, modes, {}, deadline)(arm, all) - simulated;
       for (std::size_t c = 0; c < squares.size(); ++c) {
         const ObservedChannel& channel = observations.channels[c];
         const auto signal = observations.values.segment(channel.first, channel.count).array();

@@ -2,11 +2,10 @@
 
 #include "diagnose/search/misfit.hpp"
 #include "diagnose/search/selection.hpp"
+#include "measured/spectra/tail_probability.hpp"
 #include "measured/spectra/window.hpp"
 #include "response/excitation/excitation.hpp"
 
-#include <boost/math/distributions/complement.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -163,8 +162,7 @@ double beyond_noise(const std::vector<const BandError*>& errors) {
 }  // namespace
 
 double noise_probability(double power_ratio, double freedom) {
-  const boost::math::fisher_f power(freedom, 2.0 / (kNoiseKnown * kNoiseKnown));
-  return boost::math::cdf(boost::math::complement(power, power_ratio));
+  return measured::f_tail(power_ratio, freedom, 2.0 / (kNoiseKnown * kNoiseKnown));
 }
 
 std::vector<BandError> band_errors(const SymptomsInput& input) {

@@ -1,10 +1,9 @@
 #include "diagnose/symptoms/error_trends.hpp"
 
 #include "diagnose/symptoms/frequency_bands.hpp"
+#include "measured/spectra/tail_probability.hpp"
 #include "response/excitation/excitation.hpp"
 
-#include <boost/math/distributions/complement.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -136,9 +135,7 @@ std::optional<Change> change(const RunErrors& a, const RunErrors& b) {
   for (const double one : logarithms) squares += std::pow(one - made.logarithm, 2);
   made.std_error = std::sqrt(squares / (n - 1.0) / n);
   if (!(made.std_error > 0.0)) return std::nullopt;
-  const boost::math::students_t distribution(n - 1.0);
-  made.probability = 2.0 * boost::math::cdf(boost::math::complement(
-                               distribution, std::abs(made.logarithm) / made.std_error));
+  made.probability = measured::students_t_tails(made.logarithm / made.std_error, n - 1.0);
   return made;
 }
 

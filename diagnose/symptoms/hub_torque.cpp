@@ -2,10 +2,9 @@
 
 #include "diagnose/search/misfit.hpp"
 #include "diagnose/symptoms/hub_regression.hpp"
+#include "measured/spectra/tail_probability.hpp"
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/complement.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 
 #include <algorithm>
 #include <array>
@@ -198,9 +197,8 @@ void put_last(const HubRegression& all, const Regressed& regressed, double befor
   term.std_error = std::hypot(of_residuals, kFirstOrder * term.coefficient);
   term.share = (before - left) / excess;
   const double freedom = static_cast<double>(own);
-  const boost::math::fisher_f distribution(freedom, std::max(1.0, independent - freedom));
-  term.probability = boost::math::cdf(
-      boost::math::complement(distribution, std::max(0.0, before - left) / freedom / scale));
+  term.probability = measured::f_tail((before - left) / freedom / scale, freedom,
+                                      std::max(1.0, independent - freedom));
 }
 
 /// The largest of any hub signal, relative to the signal.

@@ -1,6 +1,6 @@
 #include "diagnose/symptoms/root_shifts.hpp"
+#include "measured/spectra/tail_probability.hpp"
 
-#include <boost/math/special_functions/erf.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,10 +13,6 @@
 namespace flexarm::diagnose {
 
 namespace {
-
-double probability_of(double deviates) {
-  return boost::math::erfc(std::abs(deviates) / std::sqrt(2.0));
-}
 
 /// Poles, or zeros of one sensor; of all runs.
 struct RootGroup {
@@ -38,7 +34,7 @@ std::vector<RootGroup> groups_of(const std::vector<RootShift>& shifts) {
     }
     at->shifts.push_back(&shift);
     const auto lower = [](double& least, const std::optional<RootNumber>& number) {
-      if (number) least = std::min(least, probability_of(number->deviates()));
+      if (number) least = std::min(least, measured::normal_tails(number->deviates()));
     };
     lower(at->frequency_probability, shift.frequency_Hz);
     lower(at->damping_probability, shift.damping_ratio);
@@ -53,7 +49,8 @@ std::vector<std::string> moved(const RootGroup& group, std::size_t tests, Number
   for (const RootShift* shift : group.shifts) {
     const std::optional<RootNumber>& own = number(*shift);
     if (!own) continue;
-    if (!symptom(SymptomKind::roots, "", probability_of(own->deviates()), tests).is_significant) {
+    if (!symptom(SymptomKind::roots, "", measured::normal_tails(own->deviates()), tests)
+             .is_significant) {
       continue;
     }
     const RootShift*& kept = furthest[shift->order];

@@ -1,9 +1,8 @@
 #include "diagnose/unknown/balanced_motion.hpp"
 
 #include "diagnose/search/misfit.hpp"
+#include "measured/spectra/tail_probability.hpp"
 
-#include <boost/math/distributions/complement.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,8 +64,7 @@ Dependence dependence_on(const std::vector<double>& values,
   const double rest = independent(left, measured::RunKind::time) - kIntervals;
   if (rest < 1.0 || !(made.share < 1.0)) return made;
   const double ratio = made.share / (1.0 - made.share) * rest / kIntervals;
-  const boost::math::fisher_f chance(kIntervals, rest);
-  made.probability = boost::math::cdf(boost::math::complement(chance, ratio));
+  made.probability = measured::f_tail(ratio, kIntervals, rest);
   return made;
 }
 

@@ -113,14 +113,15 @@ std::size_t indistinguishable(const std::vector<PortShare>& ports) {
 }  // namespace
 
 std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm& arm,
-                                          const Eigen::VectorXd& errors) {
+                                          const Eigen::VectorXd& errors,
+                                          const arm::Deadline& deadline) {
   if (!arm::has_beam(arm) || is_driven_by_motion(problem.experiment())) return std::nullopt;
   auto segments = residual_spectra(problem, errors);
   MissingForce made{.lines = lines_of(segments)};
   if (made.lines < kFewestLines) return std::nullopt;
   std::erase_if(segments, [](const auto& segment) { return segment.sensors.size() < 2; });
   if (lines_of(segments) < kFewestLines) return made;
-  const TriedPlaces tried = try_places(problem, arm, segments);
+  const TriedPlaces tried = try_places(problem, arm, segments, deadline);
   const std::vector<double> totals = totals_of(tried.parts);
   std::vector<TriedPort> ports;
   for (const PlacesOfPort& places : ports_of(tried.places)) {

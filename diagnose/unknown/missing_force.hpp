@@ -53,9 +53,11 @@ inline constexpr std::size_t kMostPorts = 2;
 ///
 /// `errors` are those of `problem` by `arm` in standard deviations (to_errors). Empty for an arm
 /// without a beam, for runs that are driven by motion, and where fewer than `kFewestLines` lines
-/// are beyond noise; without ports where those of runs with two sensors or more are fewer.
+/// are beyond noise; without ports where those of runs with two sensors or more are fewer. Throws
+/// arm::Cancelled after the deadline.
 std::optional<MissingForce> missing_force(const Problem& problem, const arm::Arm& arm,
-                                          const Eigen::VectorXd& errors);
+                                          const Eigen::VectorXd& errors,
+                                          const arm::Deadline& deadline = {});
 inline constexpr double kDistance = 2.0;
 inline constexpr double kMoreLeft = 1.1;
 inline constexpr std::size_t kFewestLines = 20;

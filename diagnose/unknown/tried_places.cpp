@@ -144,15 +144,18 @@ std::vector<arm::Sensor> all_sensors(const std::vector<ResidualSpectra>& segment
 }  // namespace
 
 TriedPlaces try_places(const Problem& problem, const arm::Arm& arm,
-                       const std::vector<ResidualSpectra>& segments) {
+                       const std::vector<ResidualSpectra>& segments,
+                       const arm::Deadline& deadline) {
   TriedPlaces tried{force_places(arm, all_sensors(segments)), {}, {}};
   for (const SharedLines& shared : shared_lines(problem, segments)) {
+    arm::require_time(deadline);
     arm::Arm of_run = arm;
     of_run.payload = shared.payload.value_or(arm.payload);
     const PortResponses port(of_run, shared.sensors, shared.frequency_Hz);
     const std::vector<Eigen::MatrixXcd> responses = port(tried.places);
     const Eigen::MatrixXcd of_command = port.of_command();
     for (const ResidualSpectra* segment : shared.segments) {
+      arm::require_time(deadline);
       const auto columns = columns_of(shared, *segment);
       const WeightedResiduals residuals(
           *segment,

@@ -49,9 +49,9 @@ struct TriedPlaces {
 ///     total = T = E^H W E - sum W_j N_j,     left = n/(n - 1) U.
 ///
 /// `segments` have two sensors or more; of `problem`, by `arm`. In closed loop the part of E that
-/// the error of the simulated torque makes is taken off.
+/// the error of the simulated torque makes is taken off. Throws arm::Cancelled after the deadline.
 TriedPlaces try_places(const Problem& problem, const arm::Arm& arm,
-                       const std::vector<ResidualSpectra>& segments);
+                       const std::vector<ResidualSpectra>& segments, const arm::Deadline& deadline);
 inline constexpr double kRelativeError = 0.3;
 inline constexpr std::size_t kBands = 4;
 

@@ -21,6 +21,21 @@ double growing_coordinate(double value, double low, double high) {
   return std::log1p(value / low) / std::log1p(high / low);
 }
 
+/// The inverse hyperbolic sines of a range through 0, in units of what is even in it.
+struct SinhRange {
+  double even;
+  double begin;
+  double length;
+
+  explicit SinhRange(double lowest, double highest)
+      : even(-kEven * lowest),
+        begin(std::asinh(lowest / even)),
+        length(std::asinh(highest / even) - begin) {}
+
+ private:
+  static constexpr double kEven = 0.1;  // of the range below 0
+};
+
 }  // namespace
 
 double SearchedParameter::value(double coordinate) const {
@@ -34,6 +49,10 @@ double SearchedParameter::value(double coordinate) const {
     case Spacing::from_infinity:
       return 1.0 /
              std::max(growing(coordinate, 1.0 / highest, 1.0 / lowest), 1.0 / (kRigid * highest));
+    case Spacing::about_zero: {
+      const SinhRange range(lowest, highest);
+      return range.even * std::sinh(range.begin + coordinate * range.length);
+    }
   }
   return lowest;
 }
@@ -48,12 +67,17 @@ double SearchedParameter::coordinate(double value) const {
       return growing_coordinate(value, lowest, highest);
     case Spacing::from_infinity:
       return growing_coordinate(1.0 / value, 1.0 / highest, 1.0 / lowest);
+    case Spacing::about_zero: {
+      const SinhRange range(lowest, highest);
+      return (std::asinh(value / range.even) - range.begin) / range.length;
+    }
   }
   return 0.0;
 }
 
 std::optional<double> SearchedParameter::neutral_coordinate() const {
   if (spacing == Spacing::from_zero || spacing == Spacing::from_infinity) return 0.0;
+  if (spacing == Spacing::about_zero) return this->coordinate(0.0);
   if (!neutral) return std::nullopt;
   return coordinate(*neutral);
 }
@@ -65,6 +89,10 @@ double SearchedParameter::size(double coordinate) const {
   };
   if (spacing == Spacing::from_zero) return of_growing(lowest, highest);
   if (spacing == Spacing::from_infinity) return of_growing(1.0 / highest, 1.0 / lowest);
+  if (spacing == Spacing::about_zero) {
+    const SinhRange range(lowest, highest);
+    return std::abs(std::tanh(range.begin + coordinate * range.length)) / range.length;
+  }
   if (neutral) return std::abs(coordinate - *neutral_coordinate());
   return spacing == Spacing::logarithmic ? 1.0 / std::log(highest / lowest) : 0.5;
 }

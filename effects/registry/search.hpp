@@ -46,6 +46,9 @@ enum class Spacing {
   from_zero,
   /// From infinity, where the effect does nothing, down to `lowest`: from_zero of the reciprocal.
   from_infinity,
+  /// From `lowest`, below 0, through 0, where the effect does nothing: evenly within 10 % of
+  /// -`lowest` of it, in equal ratios beyond.
+  about_zero,
 };
 
 /// A parameter of an effect and where it is looked for.

@@ -55,7 +55,9 @@ FmuInstance::FmuInstance(const std::filesystem::path& resources, std::string_vie
                     "description",
                     arm::shown(token), settings_.token));
   }
-  filed_ = measured::read_arm_file(resources / kArmFile, effects::vocabulary());
+  const auto arm_file = resources / kArmFile;
+  filed_ = measured::parse_arm(measured::read_text_file(arm_file, measured::kLargestArmFile_bytes),
+                               arm_file.string(), effects::vocabulary());
   variables_ = fmu_variables(filed_, settings_.sensors);
   state_.arm = filed_;
 }

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "response/formulation_maker.hpp"
+#include "response/frequency/response_study.hpp"
 #include "response/linear_chain.hpp"
 #include "response/residual_mode.hpp"
 
@@ -17,11 +18,23 @@ namespace {
 using Eigen::Index;
 using response::StateSpace;
 
-StateSpace state_space_of(const arm::Arm& arm, const StateSpaceSettings& settings) {
-  const response::ArmParts parts = response::take_apart(arm);
-  const int roots = settings.modes + (settings.static_correction ? 1 : 0);
+response::Truncation truncation_of(const arm::Arm& arm, const StateSpaceSettings& settings) {
+  response::ResponseOptions options;
+  options.sensors = settings.sensors;
+  const int roots = settings.modes.value_or(response::most_chosen_modes(settings.formulation)) + 1;
   const auto formulation = response::make_formulation(settings.formulation, arm, roots);
-  arm::ModalModel model = response::modal_model(formulation, settings.modes, settings.sensors, {});
+  const auto band = response::frequency_range(formulation, options);
+  return response::truncation_in_frequency(
+      formulation, settings.sensors, response::judged_frequencies_Hz(band.from_Hz, band.to_Hz),
+      settings.static_correction,
+      {settings.modes, response::most_chosen_modes(settings.formulation)});
+}
+
+StateSpace state_space_of(const arm::Arm& arm, const StateSpaceSettings& settings, int modes) {
+  const response::ArmParts parts = response::take_apart(arm);
+  const int roots = modes + (settings.static_correction ? 1 : 0);
+  const auto formulation = response::make_formulation(settings.formulation, arm, roots);
+  arm::ModalModel model = response::modal_model(formulation, modes, settings.sensors, {});
   if (settings.static_correction) {
     model = response::with_residual_mode(formulation, model, settings.sensors);
   }
@@ -57,11 +70,14 @@ SampledStateSpace state_spaces(const ArmSamples& samples, const StateSpaceSettin
                                const std::function<void()>& advance) {
   SampledStateSpace made;
   made.systems.resize(samples.samples.size());
+  const arm::Arm& nominal = samples.samples.front().arm;
+  for (const arm::Sensor& sensor : settings.sensors) arm::require_responsive(sensor, nominal);
+  made.truncation = truncation_of(nominal, settings);
   tbb::parallel_for(std::size_t{0}, samples.samples.size(), [&](std::size_t k) {
     const arm::Arm& arm = samples.samples[k].arm;
     try {
       for (const arm::Sensor& sensor : settings.sensors) arm::require_responsive(sensor, arm);
-      made.systems[k] = state_space_of(arm, settings);
+      made.systems[k] = state_space_of(arm, settings, made.truncation.modes);
     } catch (const arm::InputError& error) {
       if (k == 0) throw;
       throw arm::InputError(fmt::format("sample {}: {}", k, error.what()), error.key());

@@ -3,8 +3,10 @@
 #include "arm/sensor.hpp"
 #include "export/samples/arm_samples.hpp"
 #include "response/state_space.hpp"
+#include "response/truncation.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace flexarm::samples {
 
 struct StateSpaceSettings {
   std::string formulation = "exact_tf";
-  int modes = 5;  ///< flexible ones
+  std::optional<int> modes = {};  ///< flexible ones; empty: chosen for the nominal arm
   bool static_correction = true;
   std::vector<arm::Sensor> sensors = {};
 };
@@ -24,6 +26,8 @@ struct StateSpaceSettings {
 struct SampledStateSpace {
   std::vector<std::string> states;
   std::vector<response::StateSpace> systems;  ///< one a sample
+  /// Of the nominal arm, from well below its first pole to above its fifth.
+  response::Truncation truncation;
 };
 
 /// `advance` is called after each sample, from any thread. Throws InputError as the formulation and

@@ -21,6 +21,7 @@
 #include "measured/checks/data_check_transform.hpp"
 #include "measured/checks/data_check_unit.hpp"
 #include "measured/checks/data_check_values.hpp"
+#include "measured/checks/other_arms.hpp"
 #include "measured/spectra/robust.hpp"
 
 #include <fmt/format.h>
@@ -161,6 +162,19 @@ std::vector<double> floor_powers(const Transforms& transforms) {
   return powers;
 }
 
+/// Whether two checks found the same.
+bool are_alike(const std::vector<DataFinding>& some, const std::vector<DataFinding>& others) {
+  return std::ranges::equal(some, others, [](const DataFinding& one, const DataFinding& other) {
+    return one.fault == other.fault && one.channel == other.channel;
+  });
+}
+
+/// Findings that the arm file is a premise of.
+std::vector<DataFinding> or_arm_file(std::vector<DataFinding> findings) {
+  for (DataFinding& finding : findings) finding.text += ", or the arm file is wrong";
+  return findings;
+}
+
 /// What the signals, without spikes, say of each other. A fault takes its channel out of what is
 /// asked next.
 std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
@@ -170,23 +184,52 @@ std::vector<DataFinding> check_relations(std::span<const CheckedSignal> signals,
   const double period_s = transforms.period_s;
   const DescribedStretch described(signals, transforms, options.described);
   std::vector<DataFinding> findings;
-  const auto note = [&](const std::vector<DataFinding>& found) {
+  const auto note = [&](const auto& check) {
+    if (arm::is_over(options.deadline)) return;
+    const std::vector<DataFinding> found = check();
     append(findings, found);
     exclude(usable, signals, found);
   };
   const auto comparison = [&] {
     return Comparison{signals, transforms, usable, options, described.relations};
   };
-  note(check_trends(signals, usable, options));
-  if (transforms.from_rest) note(check_answers(signals, usable, active, period_s, options));
-  note(check_signs(comparison()));
-  note(check_units(comparison()));
-  note(check_delay(comparison()));
+  note([&] { return check_trends(signals, usable, options); });
   if (transforms.from_rest) {
-    if (!described.values.empty()) note(check_torque_offset(comparison(), options.described));
-    note(check_offsets(comparison(), described.values));
+    note([&] { return check_answers(signals, usable, active, period_s, options); });
   }
-  note(check_angle_drift(signals, usable, floor_powers(transforms), period_s, options));
+  DataCheckOptions bare = options;
+  bare.length_m.reset();
+  bare.total_inertia_kg_m2.reset();
+  // What holds without the arm file is said of the record alone.
+  const auto judged = [&](const auto& check) {
+    const std::vector<DataFinding> found = check(comparison());
+    if (found.empty()) return found;
+    const std::vector<DataFinding> without_arm =
+        check(Comparison{signals, transforms, usable, bare});
+    if (are_alike(found, without_arm)) return found;
+    const bool is_of_other_arm =
+        other_arm_explains_more(signals, usable, period_s, transforms.from_rest, found, options);
+    return is_of_other_arm ? without_arm : or_arm_file(found);
+  };
+  // Inertia alone turns an arm: that is a premise of its own, which springs and friction refute.
+  note([&] {
+    const std::vector<DataFinding> found = judged(check_signs);
+    const bool is_of_other_arm =
+        !found.empty() &&
+        other_arm_explains_more(signals, usable, period_s, transforms.from_rest, found, options);
+    return is_of_other_arm ? std::vector<DataFinding>() : found;
+  });
+  note([&] { return judged(check_units); });
+  note([&] { return judged(check_delay); });
+  if (transforms.from_rest) {
+    if (!described.values.empty()) {
+      note([&] { return check_torque_offset(comparison(), options.described); });
+    }
+    note([&] { return check_offsets(comparison(), described.values); });
+  }
+  note([&] {
+    return check_angle_drift(signals, usable, floor_powers(transforms), period_s, options);
+  });
   return findings;
 }
 
@@ -198,8 +241,15 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals,
                                  const ClockCheck& clock, bool from_rest,
                                  const DataCheckOptions& options) {
   std::vector<DataFinding> findings;
-  const auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
+  if (arm::is_over(options.deadline)) return findings;
+  auto rate = check_clock_rate(signals, usable, clock.period_s, from_rest, options);
+  if (!rate.empty()) {
+    const bool is_of_other_arm =
+        other_arm_explains_more(signals, usable, clock.period_s, from_rest, rate, options);
+    rate = is_of_other_arm ? std::vector<DataFinding>() : or_arm_file(std::move(rate));
+  }
   append(findings, rate);
+  if (arm::is_over(options.deadline)) return findings;
   const double period_s = clock.period_s / (rate.empty() ? 1.0 : rate.front().value);
   const Transforms transforms = transform(signals, period_s, from_rest);
   const Comparison raw{signals, transforms, usable, options};
@@ -209,10 +259,12 @@ std::vector<DataFinding> compare(std::span<const CheckedSignal> signals,
   const auto swaps = check_swaps(raw);
   append(findings, swaps);
   if (!swaps.empty()) return findings;
+  if (arm::is_over(options.deadline)) return findings;
   std::vector<bool> fine = usable;
   exclude(fine, signals, coarse);
   const auto spikes = check_all_spikes(signals, fine, options, clock.findings.empty());
   append(findings, spikes);
+  if (arm::is_over(options.deadline)) return findings;
   const Repaired repaired(signals, spikes);
   append(findings, check_sampling_jitter(repaired.signals(), fine, period_s));
   const bool as_recorded = spikes.empty();
@@ -301,7 +353,7 @@ std::vector<DataFinding> check_data(const TimeRecord& record, const DataCheckOpt
   const auto faulty = check_values(all, options);
   append(findings, faulty);
 
-  if (clock.count >= kFewestCompared) {
+  if (clock.count >= kFewestCompared && !arm::is_over(options.deadline)) {
     const auto recorded = signals_of(record, clock.first, clock.count);
     const Duplicates duplicates = check_duplicates(recorded);
     append(findings, duplicates.findings, clock.first);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/deadline.hpp"
 #include "measured/checks/described_arm.hpp"
 #include "measured/files/time_record.hpp"
 
@@ -81,6 +82,8 @@ struct DataCheckOptions {
   std::optional<double> total_inertia_kg_m2;  ///< of the rigid arm, payload included
   bool starts_at_rest = true;                 ///< the arm is at rest at the first sample
   DescribedArm described = {};                ///< empty: no arm is described
+  VariationsOfArm variations = {};            ///< arms that the described one may stand for
+  arm::Deadline deadline = {};                ///< what comes after it is not checked
 
   /// Jitter: |t_k - (a + period k)| > this period, with a, period by least squares and gaps
   /// counted.

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace flexarm::measured {
 
@@ -20,6 +22,8 @@ constexpr double kFits = 0.12;
 constexpr double kClearlyLess = 0.4;
 /// log10 of the gain of a sensor over the torque that friction and the like leave.
 constexpr double kLikely = 0.2;
+/// Samples from the first one on that are compared: a clock is wrong throughout.
+constexpr std::size_t kMostCompared = 65536;
 
 /// How far the record is from what the described arm reads at a period: of its relations to the
 /// torque, the median distance from one gain near 1 and one phase.
@@ -42,8 +46,14 @@ std::vector<DataFinding> check_clock_rate(std::span<const CheckedSignal> signals
                                           const std::vector<bool>& usable, double period_s,
                                           bool from_rest, const DataCheckOptions& options) {
   if (!options.described || !usable[0]) return {};
+  std::vector<CheckedSignal> compared(signals.begin(), signals.end());
+  for (CheckedSignal& signal : compared) {
+    if (signal.values.size() <= kMostCompared) continue;
+    signal.values = signal.values.first(kMostCompared);
+    signal.deviation = standard_deviation(signal.values);
+  }
   const auto misfit = [&](double factor) {
-    return misfit_at(signals, usable, period_s / factor, from_rest, options.described);
+    return misfit_at(compared, usable, period_s / factor, from_rest, options.described);
   };
   const double recorded = misfit(1.0);
   if (recorded <= kFits) return {};

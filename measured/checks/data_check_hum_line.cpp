@@ -21,6 +21,7 @@ constexpr double kCandidateScore = 4.0;
 constexpr double kMostChange = 0.25;
 constexpr double kChangeErrors = 3.0;
 constexpr int kRefinements = 4;
+constexpr double kWholeCycles = 1e-13;  // sine of a turn: whole cycles but for rounding
 
 }  // namespace
 
@@ -34,7 +35,7 @@ HumBand::HumBand(std::size_t samples, double period_s, double centre_Hz)
   const Eigen::ArrayXd window = 0.5 - 0.5 * (kLineTurn_rad * (at + 0.5) / count).cos();
   exponentials_.resize(lines(), samples_);
   for (Index k = 0; k < samples_; ++k) {
-    const double lowest = centre_Hz * period_s - static_cast<double>(side_) / count;
+    const double lowest = lowest_line() / count;
     Complex turn = std::polar(window[k], -kLineTurn_rad * lowest * at[k]);
     const Complex next = std::polar(1.0, -kLineTurn_rad * at[k] / count);
     for (Index line = 0; line < lines(); ++line) {
@@ -48,7 +49,28 @@ bool HumBand::is_usable() const {
   return side_ >= kFewestBandSide;
 }
 
+Complex HumBand::windowed_wave(double frequency_Hz, Index line) const {
+  const auto count = static_cast<double>(samples_);
+  const double cycles =
+      frequency_Hz * period_s_ * count - lowest_line() - static_cast<double>(line);
+  // The sum of exp(i 2 pi c k/n) over k from 0 to n - 1.
+  const auto sum = [count](double c) {
+    const double half = 0.5 * kLineTurn_rad * c;
+    const double step = std::sin(half / count);
+    const double size = std::abs(step) < kWholeCycles ? count : std::sin(half) / step;
+    return std::polar(1.0, half * (count - 1.0) / count) * size;
+  };
+  const Complex half_sample = std::polar(1.0, 0.5 * kLineTurn_rad / count);
+  return 0.5 * (0.5 * sum(cycles) - 0.25 * (half_sample * sum(cycles + 1.0) +
+                                            std::conj(half_sample) * sum(cycles - 1.0)));
+}
+
 BandLines HumBand::of_wave(double frequency_Hz, int most) const {
+  if (most == 0) {
+    BandLines wave(lines(), 1);
+    for (Index line = 0; line < lines(); ++line) wave(line, 0) = windowed_wave(frequency_Hz, line);
+    return wave;
+  }
   BandLines waves(samples_, most + 1);
   for (Index k = 0; k < samples_; ++k) {
     const double t = 2.0 * (static_cast<double>(k) + 0.5) / static_cast<double>(samples_) - 1.0;

@@ -39,6 +39,14 @@ class HumBand {
   BandLines transient() const;
 
  private:
+  /// The band's first line [1/duration].
+  double lowest_line() const {
+    return centre_Hz_ * period_s_ * static_cast<double>(samples_) - static_cast<double>(side_);
+  }
+  /// A line of of_wave(frequency_Hz, 0), by the sum of the geometric series: a grid of frequencies
+  /// over a long record takes no time by its samples.
+  std::complex<double> windowed_wave(double frequency_Hz, Eigen::Index line) const;
+
   Eigen::Index samples_;
   double period_s_;
   double centre_Hz_;

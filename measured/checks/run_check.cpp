@@ -1,6 +1,7 @@
 #include "measured/checks/run_check.hpp"
 
 #include "measured/checks/data_check_described.hpp"
+#include "measured/checks/other_arms.hpp"
 #include "measured/checks/run_check_noise.hpp"
 #include "measured/checks/run_check_signals.hpp"
 #include "measured/spectra/robust.hpp"
@@ -50,6 +51,13 @@ class PayloadSearch {
   double distance_at(double factor) const {
     return described_distance(compared_.signals, compared_.usable, compared_.transforms,
                               arms_.with(payload_at(factor)).described);
+  }
+
+  /// Whether another arm with the stated payload explains the run better than this payload does.
+  bool is_of_other_arm(double factor) const {
+    const auto& [signals, usable, transforms] = compared_;
+    return other_arm_explains_more(signals, usable, transforms.period_s, transforms.from_rest,
+                                   arms_.with(run_.payload), arms_.with(payload_at(factor)));
   }
 
   /// The payload whose mass is felt as `factor` times the stated one.
@@ -150,13 +158,14 @@ std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
   const auto odd = odd_one(found);
   if (!odd) return {};
   const Nearest& other = found[*odd];
+  if (searches[other.search].is_of_other_arm(other.factor)) return {};
   const std::size_t at = compared[other.search];
   const CheckedRun& run = runs[at];
   const double mass_kg = searches[other.search].payload_at(other.factor).mass_kg;
   return {{at,
            {Fault::wrong_payload, "payload", 0, run.record->time_s.front(), mass_kg,
             fmt::format("the payload is {:.3g} kg by the response to the torque, not {:.4g} kg as "
-                        "stated; the other runs agree with theirs",
+                        "stated, or the arm file is wrong; the other runs agree with theirs",
                         mass_kg, run.payload.mass_kg)}}};
 }
 
@@ -170,7 +179,8 @@ std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const De
 }
 
 std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun> runs,
-                                                    const DescribedArms& arms) {
+                                                    const DescribedArms& arms,
+                                                    const arm::Deadline& deadline) {
   std::vector<CheckedRun> checked;
   std::vector<std::size_t> at;  // of each in `runs`
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -181,12 +191,14 @@ std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun>
                    run.initial == InitialState::rest};
     DataCheckOptions options = arms.with ? arms.with(one.payload) : DataCheckOptions{};
     options.starts_at_rest = one.starts_at_rest;
+    options.deadline = deadline;
     one.findings = check_data(*record, options);
     checked.push_back(std::move(one));
     at.push_back(r);
   }
   std::vector<std::vector<DataFinding>> findings(runs.size());
-  const auto compared = check_runs(checked, arms);
+  const auto compared =
+      arm::is_over(deadline) ? std::vector<RunFinding>() : check_runs(checked, arms);
   for (std::size_t i = 0; i < checked.size(); ++i) findings[at[i]] = std::move(checked[i].findings);
   for (const auto& [run, finding] : compared) findings[at[run]].push_back(finding);
   return findings;

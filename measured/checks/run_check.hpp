@@ -45,7 +45,9 @@ struct RunFinding {
 std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms);
 
 /// The findings of `check_data` and `check_runs`, a list a run; empty for what is no `time` run.
+/// After the deadline nothing more is checked.
 std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun> runs,
-                                                    const DescribedArms& arms);
+                                                    const DescribedArms& arms,
+                                                    const arm::Deadline& deadline = {});
 
 }  // namespace flexarm::measured

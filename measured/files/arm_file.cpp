@@ -6,7 +6,6 @@
 #include "arm/uncertainties.hpp"
 #include "measured/files/hub_torque_table_keys.hpp"
 #include "measured/files/stated_effect.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_node.hpp"
 
@@ -21,8 +20,6 @@
 namespace flexarm::measured {
 
 namespace {
-
-constexpr std::size_t kLargestFile_bytes = 1 << 20;
 
 std::vector<std::string> leaves_of(const std::string& table) {
   std::vector<std::string> leaves;
@@ -274,10 +271,6 @@ arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
                   file_name, 1);
   }
   return Reader(file_name, vocabulary).read(parse_toml(toml, file_name));
-}
-
-arm::Arm read_arm_file(const std::filesystem::path& path, const arm::Vocabulary& vocabulary) {
-  return parse_arm(read_text_file(path, kLargestFile_bytes), arm::shown(path.string()), vocabulary);
 }
 
 }  // namespace flexarm::measured

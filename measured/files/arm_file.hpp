@@ -2,11 +2,15 @@
 
 #include "arm/arm.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace flexarm::measured {
+
+/// The largest arm file that is read.
+inline constexpr std::size_t kLargestArmFile_bytes = std::size_t{1} << 20U;
 
 /// Reads an arm file (TOML, docs/formats.md) whose effects are among `vocabulary`.
 ///
@@ -20,6 +24,10 @@ arm::Arm read_arm_file(const std::filesystem::path& path, const arm::Vocabulary&
 /// The same for the text of a file; `file_name` stands in the errors.
 arm::Arm parse_arm(std::string_view toml, const std::string& file_name,
                    const arm::Vocabulary& vocabulary);
+
+/// Whether no number of the arm is filled in, as in the template of `flexarm import`. Throws
+/// InputError for a file that cannot be read or is not TOML.
+bool is_unfilled_arm_file(const std::filesystem::path& path);
 
 /// The arm as the text of a file: what it gives, with units as comments; values equal to their
 /// default are left out. `parse_arm` reads the same arm back, every double bit for bit.

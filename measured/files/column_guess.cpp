@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -35,13 +36,24 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
+/// Fields that hold a signal and say nothing of it: "torque.signals.values" is "torque".
+bool is_holder(string_view field) {
+  constexpr std::array<string_view, 7> kHolders = {"values",  "value",  "data",   "column",
+                                                   "signals", "signal", "samples"};
+  const std::string letters = plain_letters(field.substr(0, field.find_first_of("({")));
+  return std::ranges::count(kHolders, string_view(letters)) > 0;
+}
+
 /// The name without its unit, and without the structure that it is a field of.
 std::string base_of(const ColumnLabel& label) {
-  const std::string base = split_column_name(label.name).base;
-  const auto point = base.rfind('.');
-  // "Beschl." is no structure.
-  const bool is_field = point != std::string::npos && point + 1 < base.size() && !standard(base);
-  return is_field ? base.substr(point + 1) : base;
+  std::string base = split_column_name(label.name).base;
+  for (auto point = base.rfind('.'); point != std::string::npos; point = base.rfind('.')) {
+    // "Beschl." is no structure.
+    if (point + 1 >= base.size() || standard(base)) return base;
+    if (!is_holder(string_view(base).substr(point + 1))) return base.substr(point + 1);
+    base.resize(point);
+  }
+  return base;
 }
 
 std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
@@ -106,8 +118,8 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
   std::vector<ColumnLabel> labels;
   for (const auto& column : table.columns) {
-    labels.push_back(
-        {column.name, column.unit, column.is_text() || column.holds_nothing(), column.is_stamp});
+    labels.push_back({column.name, column.unit, column.is_text() || column.holds_nothing(),
+                      column.is_stamp, column.path});
   }
   return labels;
 }

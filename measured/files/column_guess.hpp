@@ -15,6 +15,7 @@ struct ColumnLabel {
   std::string unit;       ///< canonical; empty: not told
   bool is_text = false;   ///< holds no numbers, and is no quantity
   bool is_stamp = false;  ///< times of a clock, which are taken where no column has others
+  std::string path = {};  ///< where it stands in a file of structures; empty: by name
 };
 
 /// The labels of the columns of a table; one without a number is as one of text.

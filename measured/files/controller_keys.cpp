@@ -3,8 +3,8 @@
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "measured/files/arm_file.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/key_values.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/toml_document.hpp"
 #include "measured/files/toml_node.hpp"
 
@@ -219,8 +219,7 @@ arm::Controller read_controller(TomlFaults& faults, const std::string& prefix,
 }
 
 arm::Controller read_controller_file(const std::filesystem::path& path) {
-  return parse_controller(read_text_file(path, kLargestControllerFile_bytes),
-                          arm::shown(path.string()));
+  return read_file_as(FileKind::controller, path, kLargestControllerFile_bytes, parse_controller);
 }
 
 arm::Controller parse_controller_keys(std::string_view text, const std::string& where) {

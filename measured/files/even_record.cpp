@@ -1,7 +1,9 @@
 #include "measured/files/even_record.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/period_changes.hpp"
 #include "measured/files/record_range.hpp"
+#include "measured/files/resampling.hpp"
 #include "measured/files/sample_clock.hpp"
 #include "measured/files/time_grid.hpp"
 
@@ -32,8 +34,6 @@ constexpr double kCoarsestDigit_periods = 0.75;
 constexpr double kFewestRepeats = 0.1;
 /// Times of a grid that lie closer, in periods, differ by rounding.
 constexpr double kSameTime_periods = 1e-6;
-/// Samples that lie closer make a curve through them out of their noise.
-constexpr double kClosest_periods = 0.3;
 
 std::size_t repeats_in(std::span<const double> times_s) {
   std::size_t repeats = 0;
@@ -95,105 +95,23 @@ std::vector<double> fitted_times(std::span<const double> times_s, const ClockSte
   return fitted;
 }
 
-/// Mean over [from_s, from_s + period_s) of what is held from sample to sample; `i` is the sample
-/// that holds at from_s.
-double mean_of_held(const std::vector<double>& times_s, const std::vector<double>& values,
-                    double from_s, double period_s, std::size_t& i) {
-  while (i + 1 < times_s.size() && times_s[i + 1] <= from_s) ++i;
-  const double to_s = from_s + period_s;
-  double integral = 0.0;
-  for (std::size_t j = i; j < times_s.size() && times_s[j] < to_s; ++j) {
-    const double end_s = j + 1 < times_s.size() ? std::min(times_s[j + 1], to_s) : to_s;
-    integral += values[j] * (end_s - std::max(times_s[j], from_s));
-  }
-  return integral / period_s;
-}
-
-double linear_at(const TimeRecord& record, double time_s, std::size_t& i) {
-  const auto& times_s = record.time_s;
-  while (i + 2 < times_s.size() && times_s[i + 1] <= time_s) ++i;
-  const double part = (time_s - times_s[i]) / (times_s[i + 1] - times_s[i]);
-  return std::lerp(record.torque_N_m[i], record.torque_N_m[i + 1], part);
-}
-
-/// Samples of a curve, at times that lie no closer than `kClosest_periods`.
-struct Nodes {
-  std::vector<double> times_s;
-  std::vector<double> values;
-};
-
-/// Samples that lie closer together than that are one, their mean.
-Nodes nodes_of(const std::vector<double>& times_s, const std::vector<double>& values,
-               double period_s) {
-  Nodes nodes;
-  std::size_t first = 0;
-  for (std::size_t k = 1; k <= times_s.size(); ++k) {
-    if (k < times_s.size() && times_s[k] - times_s[first] < kClosest_periods * period_s) continue;
-    double time_s = 0.0;
-    double value = 0.0;
-    const auto count = static_cast<double>(k - first);
-    for (; first < k; ++first) {
-      time_s += times_s[first] / count;
-      value += values[first] / count;
-    }
-    nodes.times_s.push_back(time_s);
-    nodes.values.push_back(value);
-  }
-  return nodes;
-}
-
-/// The cubic through the four nodes around the time (Lagrange's form); `i` is the node in front of
-/// the last time asked for.
-double cubic_at(const Nodes& nodes, double time_s, std::size_t& i) {
-  constexpr std::size_t kPoints = 4;
-  const auto& times_s = nodes.times_s;
-  while (i + 2 < times_s.size() && times_s[i + 1] <= time_s) ++i;
-  const std::size_t first =
-      std::min(i == 0 ? 0 : i - 1, times_s.size() - std::min(times_s.size(), kPoints));
-  const std::size_t last = std::min(first + kPoints, times_s.size());
-  double value = 0.0;
-  for (std::size_t j = first; j < last; ++j) {
-    double weight = 1.0;
-    for (std::size_t k = first; k < last; ++k) {
-      if (k != j) weight *= (time_s - times_s[k]) / (times_s[j] - times_s[k]);
-    }
-    value += weight * nodes.values[j];
-  }
-  return value;
-}
-
 TimeRecord resampled(const TimeRecord& record, double period_s, TorqueHold hold) {
   const double first_s = record.time_s.front();
   const double last_s = record.time_s.back();
   // A last time that lies on the grid but for rounding is a sample of it.
   const double steps = std::floor((last_s - first_s) / period_s + kDigitError);
   TimeRecord even{grid_from(first_s, period_s, static_cast<std::size_t>(steps) + 1), {}, {}};
-  const auto means_of = [&](const std::vector<double>& values) {
-    std::vector<double> means;
-    std::size_t i = 0;
-    for (const double time_s : even.time_s) {
-      means.push_back(mean_of_held(record.time_s, values, time_s, period_s, i));
-    }
-    return means;
-  };
-  std::size_t i = 0;
-  if (hold == TorqueHold::zero) {
-    even.torque_N_m = means_of(record.torque_N_m);
-  } else {
-    for (const double time_s : even.time_s) {
-      even.torque_N_m.push_back(linear_at(record, std::min(time_s, last_s), i));
-    }
-  }
+  even.torque_N_m = hold == TorqueHold::zero
+                        ? held_means(record.time_s, record.torque_N_m, even.time_s, period_s)
+                        : linear_values(record.time_s, record.torque_N_m, even.time_s);
   even.reference.unit = record.reference.unit;
   if (!record.reference.values.empty()) {
-    even.reference.values = means_of(record.reference.values);
+    even.reference.values =
+        held_means(record.time_s, record.reference.values, even.time_s, period_s);
   }
   for (const auto& channel : record.channels) {
-    const Nodes nodes = nodes_of(record.time_s, channel.values, period_s);
-    Channel values{channel.sensor, {}};
-    i = 0;
-    for (const double time_s : even.time_s) values.values.push_back(cubic_at(nodes, time_s, i));
-    even.channels.push_back(std::move(values));
+    even.channels.push_back(
+        {channel.sensor, cubic_values(record.time_s, channel.values, even.time_s, period_s)});
   }
   return even;
 }
@@ -231,6 +149,26 @@ class EvenMaker {
   void add_part(TimeRecord part) {
     if (is_too_short(part) || add_rounded(part)) return;
     leave_out_repeats(part);
+    const auto changes = period_changes(part.time_s);
+    if (changes.empty()) {
+      add_clock(part);
+      return;
+    }
+    note(fmt::format(
+        "the sampling period changes at {} place{}, first after {} s; the record is "
+        "split there",
+        changes.size(), changes.size() == 1 ? "" : "s", part.time_s[changes.front() - 1]));
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= changes.size(); ++i) {
+      const std::size_t end = i < changes.size() ? changes[i] : part.time_s.size();
+      const TimeRecord block = samples_of(part, begin, end);
+      if (!is_too_short(block) && !add_rounded(block)) add_clock(block);
+      begin = end;
+    }
+  }
+
+  /// A record of one clock: times that increase, with gaps.
+  void add_clock(const TimeRecord& part) {
     const ClockSteps steps = clock_steps(part.time_s);
     std::size_t first = 0;
     for (const std::size_t gap : steps.gaps) {

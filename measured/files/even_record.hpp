@@ -41,6 +41,7 @@ struct EvenRecords {
 /// - Where times go back the record is split; of samples with the same time the first is kept.
 /// - Times that lie on an even grid up to their own last digit are replaced by the grid: they are
 ///   rounded.
+/// - Where the sampling period changes (`period_changes`) the record is split.
 /// - A gap (`clock_steps`) splits the record, or is filled.
 /// - A stretch that is uneven by more than `kMostJitter_periods` is resampled to its median period:
 ///   sensors by the cubic through the four nearest samples, where samples closer than 0.3 periods

@@ -2,11 +2,13 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/foreign_mat.hpp"
+#include "measured/files/json_table.hpp"
+#include "measured/files/mat_file.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/response_columns.hpp"
 #include "measured/files/response_unit.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/universal_file.hpp"
 
 #include <fmt/format.h>
@@ -211,25 +213,22 @@ double scale_of(const ForeignResponse& response, const std::string& sensor,
   return mapping.scale * unit.factor * torque.divisor;
 }
 
-}  // namespace
-
-const char* to_string(ForeignFormat format) {
-  switch (format) {
-    case ForeignFormat::universal:
-      return "universal file (data set 58)";
-    case ForeignFormat::matlab:
-      return "MATLAB 5 file";
-    default:
-      return "delimited text";
-  }
-}
-
-ForeignFile read_foreign_file(const std::filesystem::path& path) {
-  const std::string name = arm::shown(path.string());
-  const std::string bytes = measured::read_text_file(path, kLargestRecord_bytes);
+/// The contents of a file of any format; `path` is that of the same file.
+ForeignFile foreign_contents(const std::string& bytes, const std::string& name,
+                             const std::filesystem::path& path) {
   ForeignFile file;
-  if (bytes.starts_with("MATLAB 5.0 MAT-file")) {
+  if (is_mat_file(bytes)) {
     file = mat_contents(path);
+  } else if (is_json(bytes)) {
+    // The schema of a result; numbers of one are no log.
+    if (bytes.find("\"flexarm.") != std::string::npos) {
+      const auto known = recognise_file(bytes);
+      if (known && known->kind == FileKind::result) throw InputError("a result");
+    }
+    JsonTable json = parse_json_table(bytes, name);
+    file.format = ForeignFormat::json;
+    file.table = std::move(json.table);
+    file.left_out = std::move(json.left_out);
   } else if (is_universal(bytes)) {
     file = universal_contents(bytes, name);
   } else {
@@ -247,12 +246,42 @@ ForeignFile read_foreign_file(const std::filesystem::path& path) {
   return file;
 }
 
+}  // namespace
+
+const char* to_string(ForeignFormat format) {
+  switch (format) {
+    case ForeignFormat::universal:
+      return "universal file (data set 58)";
+    case ForeignFormat::matlab4:
+      return "MATLAB 4 file";
+    case ForeignFormat::matlab5:
+      return "MATLAB 5 file";
+    case ForeignFormat::matlab73:
+      return "MATLAB 7.3 file";
+    case ForeignFormat::json:
+      return "JSON";
+    default:
+      return "delimited text";
+  }
+}
+
+ForeignFile read_foreign_file(const std::filesystem::path& path) {
+  return read_file_as(FileKind::log, path, kLargestRecord_bytes,
+                      [&](const std::string& bytes, const std::string& name) {
+                        return foreign_contents(bytes, name, path);
+                      });
+}
+
 FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMappings& mappings,
                                     const std::string& file_name) {
   FrequencyRecord record;
   try {
     std::vector<std::string> names;
     for (const auto& response : file.responses) names.push_back(response.name);
+    if (names.empty()) {
+      throw InputError(
+          "no frequency responses; signals in time become a measurement with  flexarm import");
+    }
     for (const auto& [quantity, mapping] : mappings) {
       if (!sensor_of(quantity)) {
         throw InputError(fmt::format("{}: frequency responses have sensors only", quantity));

@@ -12,9 +12,9 @@
 
 namespace flexarm::measured {
 
-enum class ForeignFormat { text, universal, matlab };
+enum class ForeignFormat { text, universal, matlab4, matlab5, matlab73, json };
 
-/// "delimited text", "universal file (data set 58)", "MATLAB 5 file".
+/// "delimited text", "universal file (data set 58)", "MATLAB 5 file", "JSON".
 const char* to_string(ForeignFormat format);
 
 /// Contents of a file: signals in time, frequency responses, poles, or several of these.

@@ -3,14 +3,17 @@
 #include "arm/input_error.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/mat_file.hpp"
+#include "measured/files/mat_names.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/record_export.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -93,39 +96,40 @@ void read_frequency_variables(const std::vector<MatVariable>& variables, Foreign
   }
 }
 
-/// Vectors, and matrices by columns, as `add(name, values)`.
-template <class T, class Add>
-bool add_columns(const std::string& name, const MatArray<T>& matrix, const Add& add) {
+/// Behind the name of a variable: "" of a vector, "(:,2)" of a matrix of columns, "(2,:)" of one of
+/// rows, which has more columns than rows; none of what is no set of signals.
+template <class T>
+std::vector<std::string> signal_suffixes(const MatArray<T>& matrix) {
   const std::size_t shorter = std::min(matrix.rows, matrix.columns);
   const std::size_t longer = std::max(matrix.rows, matrix.columns);
-  if (shorter == 0 || longer < 2) return false;
-  if (shorter == 1) {
-    add(name, matrix.values);
-    return true;
+  if (shorter == 0 || longer < 2 || shorter > kMostColumns) return {};
+  if (shorter == 1) return {""};
+  std::vector<std::string> suffixes;
+  for (std::size_t j = 1; j <= shorter; ++j) {
+    suffixes.push_back(
+        fmt::format(fmt::runtime(matrix.rows < matrix.columns ? "({},:)" : "(:,{})"), j));
   }
-  if (matrix.columns > kMostColumns || matrix.rows < matrix.columns) return false;
-  for (std::size_t j = 0; j < matrix.columns; ++j) {
-    const auto begin = matrix.values.begin() + static_cast<std::ptrdiff_t>(j * matrix.rows);
-    add(fmt::format("{}(:,{})", name, j + 1),
-        std::vector<T>(begin, begin + static_cast<std::ptrdiff_t>(matrix.rows)));
-  }
-  return true;
+  return suffixes;
 }
 
-/// What stands behind the last point of a structure's field, in lower case.
-std::string field_name(std::string_view name) {
-  std::string field(name.substr(name.rfind('.') + 1));
-  std::ranges::transform(field, field.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return field;
+/// The signal with that number among the columns or rows of a matrix, or a vector.
+template <class T>
+std::vector<T> signal_of(const MatArray<T>& matrix, std::size_t number) {
+  const std::size_t shorter = std::min(matrix.rows, matrix.columns);
+  const bool are_rows = shorter > 1 && matrix.rows < matrix.columns;
+  std::vector<T> values;
+  for (std::size_t k = 0; k < matrix.values.size() / shorter; ++k) {
+    values.push_back(are_rows ? matrix(number, k)
+                              : matrix.values[number * (matrix.values.size() / shorter) + k]);
+  }
+  return values;
 }
 
 /// Hz in one of the vector's unit; 0 for a vector that holds no frequencies.
 double hertz_of(std::string_view name) {
   constexpr std::array<std::string_view, 5> kHertz = {"f", "freq", "freqs", "frequency", "hz"};
   constexpr std::array<std::string_view, 4> kRadians = {"w", "omega", "freq_rad", "w_rad"};
-  const std::string field = field_name(name);
+  const std::string field = mat_field(name);
   const ColumnName split = split_column_name(field);
   const auto is_one_of = [](const auto& names, std::string_view word) {
     return std::ranges::count(names, word) > 0;
@@ -137,7 +141,47 @@ double hertz_of(std::string_view name) {
   return in_hertz && is_one_of(kHertz, split.base) ? 1.0 : 0.0;
 }
 
-void read_other_variables(const std::vector<MatVariable>& variables, ForeignFile& file) {
+/// Whether it is more than a number or a text.
+bool is_large(const MatVariable& variable) {
+  const auto* real = std::get_if<MatMatrix>(&variable.value);
+  const auto* complex = std::get_if<MatComplexMatrix>(&variable.value);
+  return (real != nullptr && real->values.size() > 1) ||
+         (complex != nullptr && complex->values.size() > 1);
+}
+
+/// A time that several structures have is read once.
+void add_signal(const MatSignalName& signal, std::vector<double> values, ForeignFile& file) {
+  const auto is_time = [](std::string_view name) {
+    const std::string field = mat_field(name);
+    return field == "time" || field == "t";
+  };
+  for (const auto& column : file.table.columns) {
+    if (!is_time(signal.name) || !is_time(column.name) || column.values != values) continue;
+    file.left_out.push_back(fmt::format("{}: the same times as {}", signal.path, column.name));
+    return;
+  }
+  ForeignColumn column{signal.name, signal.unit, std::move(values)};
+  column.path = signal.path;
+  file.table.columns.push_back(std::move(column));
+}
+
+/// Names that several signals have tell them not apart: their paths do.
+void use_paths_of_namesakes(ForeignTable& table) {
+  std::map<std::string, std::size_t> counts;
+  for (const auto& column : table.columns) ++counts[column.name];
+  std::vector<std::string> told;
+  for (auto& column : table.columns) {
+    if (counts[column.name] > 1) column.name = column.path;
+    if (column.name != column.path) told.push_back(column.name + " is " + column.path);
+  }
+  if (told.empty()) return;
+  table.assumptions.push_back(
+      fmt::format("names are those of the labels in the file: {}",
+                  arm::shown(fmt::format("{}", fmt::join(told, ", ")), 400)));
+}
+
+void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
+  const std::vector<MatVariable> variables = gathered_records(std::move(all));
   std::vector<double> frequency_Hz;
   for (const auto& variable : variables) {
     const auto* matrix = std::get_if<MatMatrix>(&variable.value);
@@ -149,36 +193,49 @@ void read_other_variables(const std::vector<MatVariable>& variables, ForeignFile
         "{} holds frequencies in {}", arm::shown(variable.name), factor == 1.0 ? "Hz" : "rad/s"));
     break;
   }
+  const MatNames names(variables);
   for (const auto& variable : variables) {
-    bool is_used = false;
     if (const auto* real = std::get_if<MatMatrix>(&variable.value)) {
-      is_used = add_columns(variable.name, *real, [&](const std::string& name, const auto& values) {
-        file.table.columns.push_back({name, split_column_name(field_name(name)).unit, values});
-      });
+      const auto signals = names.of(variable.name, signal_suffixes(*real));
+      for (std::size_t j = 0; j < signals.size(); ++j) {
+        add_signal(signals[j], signal_of(*real, j), file);
+      }
+      if (!signals.empty()) continue;
     } else if (const auto* complex = std::get_if<MatComplexMatrix>(&variable.value)) {
-      is_used =
-          add_columns(variable.name, *complex, [&](const std::string& name, const auto& values) {
-            if (values.size() != frequency_Hz.size()) {
-              file.left_out.push_back(
-                  fmt::format("{}: complex, and no vector of frequencies is as "
-                              "long",
-                              name));
-              return;
-            }
-            file.responses.push_back(
-                {name, "", "", frequency_Hz, values, std::vector<double>(values.size(), kUnknown)});
-          });
+      const auto signals = names.of(variable.name, signal_suffixes(*complex));
+      for (std::size_t j = 0; j < signals.size(); ++j) {
+        auto values = signal_of(*complex, j);
+        if (values.size() != frequency_Hz.size()) {
+          file.left_out.push_back(
+              fmt::format("{}: complex, and no vector of frequencies is as long", signals[j].path));
+          continue;
+        }
+        const std::size_t lines = values.size();
+        file.responses.push_back({signals[j].name, "", "", frequency_Hz, std::move(values),
+                                  std::vector<double>(lines, kUnknown)});
+      }
+      if (!signals.empty()) continue;
     }
-    if (!is_used) file.left_out.push_back(fmt::format("{}: no vector of numbers", variable.name));
+    // What structures say of their signals is no signal.
+    if (variable.name.find('.') != std::string::npos && !is_large(variable)) continue;
+    file.left_out.push_back(fmt::format("{}: no vector of numbers", variable.name));
   }
+  use_paths_of_namesakes(file.table);
 }
 
 }  // namespace
 
 ForeignFile mat_contents(const std::filesystem::path& path) {
   MatContents contents = read_mat_contents(path);
+  if (contents.variables.empty() && !contents.left_out.empty()) {
+    throw InputError(
+        fmt::format("{}: MATLAB file without numbers; it has {}", arm::shown(path.string()),
+                    arm::shown(fmt::format("{}", fmt::join(contents.left_out, "; ")), 400)));
+  }
   ForeignFile file;
-  file.format = ForeignFormat::matlab;
+  file.format = contents.level == MatLevel::level4    ? ForeignFormat::matlab4
+                : contents.level == MatLevel::level73 ? ForeignFormat::matlab73
+                                                      : ForeignFormat::matlab5;
   file.left_out = std::move(contents.left_out);
   const auto* schema = find<std::string>(contents.variables, "schema");
   try {
@@ -187,7 +244,7 @@ ForeignFile mat_contents(const std::filesystem::path& path) {
     } else if (schema != nullptr && *schema == kFrequencyRecordSchema) {
       read_frequency_variables(contents.variables, file);
     } else {
-      read_other_variables(contents.variables, file);
+      read_other_variables(std::move(contents.variables), file);
     }
     const std::size_t signals = file.table.columns.size() + file.responses.size();
     if (signals > kMostRecordColumns) {

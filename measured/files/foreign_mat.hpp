@@ -6,7 +6,7 @@
 
 namespace flexarm::measured {
 
-/// A MATLAB 5 file as signals and frequency responses, as `read_foreign_file` says. Throws
+/// A MATLAB file as signals and frequency responses, as `read_foreign_file` says. Throws
 /// InputError `FILE: what is wrong` as `read_mat_contents` does, and for a file with the schema of
 /// a record that holds none.
 ForeignFile mat_contents(const std::filesystem::path& path);

@@ -17,6 +17,7 @@ struct ForeignColumn {
   bool is_stamp = false;                ///< seconds of time stamps, clocks or dates in the file
   bool is_made = false;                 ///< times of a start and a period that the file tells
   bool is_left_out = false;             ///< by the user: not taken by its header
+  std::string path = {};                ///< where it stands in a file of structures; empty: by name
 
   bool is_text() const { return !texts.empty(); }
   /// Whether it has no number at all.

@@ -5,9 +5,9 @@
 #include "arm/range.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/record_constants.hpp"
-#include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,7 +21,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 namespace flexarm::measured {
@@ -144,12 +143,14 @@ class Builder {
   std::map<std::string, std::size_t, std::less<>> channel_of_name_;
 };
 
-void require_writable(const FrequencyChannel& channel) {
+void require_valid(const FrequencyChannel& channel) {
   const std::size_t size = channel.frequency_Hz.size();
-  if (size == 0 || channel.response.size() != size || channel.coherence.size() != size) {
-    throw std::invalid_argument("a frequency response whose vectors are of unlike length or empty");
-  }
   const std::string name = arm::to_string(channel.sensor);
+  if (size == 0 || channel.response.size() != size || channel.coherence.size() != size) {
+    throw InputError(fmt::format(
+        "{}: {} frequencies, {} values, {} coherences; must be as many of each, 1 or more", name,
+        size, channel.response.size(), channel.coherence.size()));
+  }
   for (std::size_t i = 0; i < size; ++i) {
     const double frequency_Hz = channel.frequency_Hz[i];
     const auto& response = channel.response[i];
@@ -170,23 +171,23 @@ void require_writable(const FrequencyChannel& channel) {
   }
 }
 
-void require_writable(const FrequencyRecord& record) {
-  const auto& channels = record.channels;
-  if (channels.empty()) throw std::invalid_argument("a frequency record without channels");
-  for (const auto& channel : channels) {
-    if (std::ranges::count(channels, channel.sensor, &FrequencyChannel::sensor) > 1) {
-      throw std::invalid_argument("a frequency record that has a sensor twice");
-    }
-    require_writable(channel);
-  }
-}
-
 }  // namespace
 
 bool FrequencyChannel::operator==(const FrequencyChannel& other) const {
   const auto equal = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
   return sensor == other.sensor && frequency_Hz == other.frequency_Hz &&
          response == other.response && std::ranges::equal(coherence, other.coherence, equal);
+}
+
+void require_valid(const FrequencyRecord& record) {
+  const auto& channels = record.channels;
+  if (channels.empty()) throw InputError("no sensor; needs the response of one or more");
+  for (const auto& channel : channels) {
+    if (std::ranges::count(channels, channel.sensor, &FrequencyChannel::sensor) > 1) {
+      throw InputError(fmt::format("{}: given twice", arm::to_string(channel.sensor)));
+    }
+    require_valid(channel);
+  }
 }
 
 FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& file_name) {
@@ -206,12 +207,12 @@ FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& 
 }
 
 FrequencyRecord read_frequency_record(const std::filesystem::path& path) {
-  return parse_frequency_record(measured::read_text_file(path, kLargestRecord_bytes),
-                                arm::shown(path.string()));
+  return read_file_as(FileKind::frequency_record, path, kLargestRecord_bytes,
+                      parse_frequency_record);
 }
 
 std::string format_frequency_record(const FrequencyRecord& record) {
-  require_writable(record);
+  require_valid(record);
   std::string out = fmt::format("{}\n", fmt::join(kNames, ","));
   for (const auto& channel : record.channels) {
     const std::string name = arm::to_string(channel.sensor);

@@ -40,10 +40,12 @@ FrequencyRecord read_frequency_record(const std::filesystem::path& path);
 /// The same for the text of a file; `file_name` stands in the errors.
 FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& file_name);
 
+/// Throws InputError for a record that no file could hold: vectors of unlike length or none, no
+/// channel, a sensor twice, and what `parse_frequency_record` would refuse.
+void require_valid(const FrequencyRecord& record);
+
 /// The record as the text of a file, sensor after sensor; `parse_frequency_record` reads the same
-/// record back, every double bit for bit. Throws std::invalid_argument for vectors of unlike length
-/// or none, no channel, or a sensor twice, and InputError for what `parse_frequency_record` would
-/// refuse.
+/// record back, every double bit for bit. Throws InputError as `require_valid`.
 std::string format_frequency_record(const FrequencyRecord& record);
 
 /// `format_frequency_record` written to `path`, whole or not at all

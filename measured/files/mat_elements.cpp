@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -65,7 +66,15 @@ std::size_t size_of(std::uint32_t type) {
 }
 
 /// Classes of arrays.
-enum Class : std::uint32_t { kCell = 1, kStruct = 2, kChar = 4, kDouble = 6, kUint64 = 15 };
+enum Class : std::uint32_t {
+  kCell = 1,
+  kStruct = 2,
+  kObject = 3,
+  kChar = 4,
+  kSparse = 5,
+  kDouble = 6,
+  kUint64 = 15
+};
 
 struct Element {
   std::uint32_t type = 0;
@@ -76,8 +85,11 @@ struct Element {
   throw InputError(fmt::format("is damaged: {}", what));
 }
 
-/// An array of a class that is left out.
-struct LeftOut {};
+/// An array of a class that is left out, by what it is; of an object the name of its class.
+struct LeftOut {
+  std::string what;
+  std::string object_class = {};
+};
 
 /// Passes over data elements one after the other.
 class Walker {
@@ -149,9 +161,14 @@ class ArrayCheck {
     if (flags.type != kUint32 || flags.data.size() != 8) damaged("array flags");
     const std::uint32_t word = walker.number(flags.data, 0);
     const std::uint32_t kind = word & 0xffU;
-    // An opaque array has names where others have dimensions.
+    // An opaque array has names where others have dimensions: its own, "MCOS", that of its class.
     constexpr std::uint32_t kOpaque = 17;
-    if (kind == kOpaque) throw LeftOut();
+    if (kind == kOpaque) {
+      std::array<std::string, 3> names;
+      for (auto& text : names) text = std::string(walker.next().data.substr(0, 255));
+      if (depth == 0) name = names[0];
+      throw LeftOut{"an object", names[2]};
+    }
     const std::size_t count = product_of(walker.next(), walker);
     const Element label = walker.next();
     if (label.type != kInt8 || label.data.size() > 255) damaged("a name");
@@ -164,8 +181,10 @@ class ArrayCheck {
       constexpr std::uint32_t kComplexFlag = 0x800;
       const bool is_complex = kind != kChar && (word & kComplexFlag) != 0;
       for (int part = 0; part < (is_complex ? 2 : 1); ++part) check_numbers(walker, count);
+    } else if (kind == kObject) {
+      throw LeftOut{"an object", std::string(walker.next().data.substr(0, 255))};
     } else {
-      throw LeftOut();
+      throw LeftOut{kind == kSparse ? "a sparse matrix" : "neither numbers nor text"};
     }
   }
 
@@ -279,7 +298,7 @@ MatElements sound_elements(string_view bytes) {
   const bool little_endian = order == "IM";
   ArrayCheck checker(little_endian, bytes.size());
   std::size_t room = most_bytes(bytes.size());
-  MatElements sound{std::string(bytes.substr(0, kHeaderSize)), {}};
+  MatElements sound{std::string(bytes.substr(0, kHeaderSize)), {}, {}};
   Walker walker(bytes.substr(kHeaderSize), little_endian);
   while (!walker.at_end()) {
     const std::size_t begin = walker.place();
@@ -299,8 +318,12 @@ MatElements sound_elements(string_view bytes) {
     try {
       checker.check(element.data, name);
       if (!element.data.empty()) sound.file += whole;
-    } catch (const LeftOut&) {
-      sound.left_out.push_back(name.empty() ? "an object" : name);
+    } catch (const LeftOut& one) {
+      if (one.object_class.empty()) {
+        sound.left_out.push_back(fmt::format("{}: {}", name, one.what));
+      } else {
+        sound.objects.push_back({name, one.object_class});
+      }
     }
   }
   return sound;

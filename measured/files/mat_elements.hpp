@@ -6,10 +6,17 @@
 
 namespace flexarm::measured {
 
+/// An object of a class, as MATLAB 5 files have it, of which only these are known.
+struct MatObject {
+  std::string name;
+  std::string class_name;
+};
+
 /// The variables of a MATLAB 5 file that are made of numbers, texts, cells and structures.
 struct MatElements {
   std::string file;                   ///< a MATLAB 5 file of these alone, uncompressed
-  std::vector<std::string> left_out;  ///< names of those of other classes: sparse, objects, ...
+  std::vector<std::string> left_out;  ///< "NAME: a sparse matrix" and the like
+  std::vector<MatObject> objects;
 };
 
 /// Takes a MATLAB 5 file apart ("MAT-File Format", The MathWorks, "Level 5 MAT-files"), expands

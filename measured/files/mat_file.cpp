@@ -2,9 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "measured/files/mat_elements.hpp"
 #include "measured/files/memory_file.hpp"
-#include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +13,6 @@
 #include <matio.h>
 #include <memory>
 #include <new>
-#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -134,125 +131,6 @@ arm::InputError unusable(const fs::path& path, const std::string& what) {
   return arm::InputError(fmt::format("{}: {}", arm::shown(path.string()), what));
 }
 
-std::size_t elements(const matvar_t& variable) {
-  return variable.dims[0] * variable.dims[1];
-}
-
-/// A text of one row.
-bool read_text(const matvar_t& variable, std::string& text) {
-  if (variable.class_type != MAT_C_CHAR || variable.rank != 2) return false;
-  const std::size_t size = elements(variable);
-  if (size > 0 && (variable.dims[0] != 1 || variable.data == nullptr)) return false;
-  text.clear();
-  for (std::size_t i = 0; i < size; ++i) {
-    const unsigned code = variable.data_size == 1
-                              ? static_cast<const std::uint8_t*>(variable.data)[i]
-                              : static_cast<const std::uint16_t*>(variable.data)[i];
-    if (variable.data_size > 2 || code < ' ' || code > '~') return false;
-    text += static_cast<char>(code);
-  }
-  return true;
-}
-
-bool read_texts(const matvar_t& variable, MatStrings& texts) {
-  if (variable.class_type != MAT_C_CELL || variable.rank != 2) return false;
-  if (elements(variable) > 0 && std::min(variable.dims[0], variable.dims[1]) != 1) return false;
-  const auto* cells = static_cast<matvar_t* const*>(variable.data);
-  for (std::size_t i = 0; i < elements(variable); ++i) {
-    if (cells == nullptr || cells[i] == nullptr || !read_text(*cells[i], texts.emplace_back())) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// What the library keeps of numbers, as doubles. Integers above 2^53 are rounded.
-template <class Stored>
-std::vector<double> doubles(const void* data, std::size_t size) {
-  const auto* values = static_cast<const Stored*>(data);
-  std::vector<double> converted(size);
-  for (std::size_t i = 0; i < size; ++i) converted[i] = static_cast<double>(values[i]);
-  return converted;
-}
-
-std::optional<std::vector<double>> doubles_of(matio_types type, const void* data,
-                                              std::size_t size) {
-  if (size == 0) return std::vector<double>();
-  if (data == nullptr) return std::nullopt;
-  switch (type) {
-    case MAT_T_DOUBLE:
-      return doubles<double>(data, size);
-    case MAT_T_SINGLE:
-      return doubles<float>(data, size);
-    case MAT_T_INT8:
-      return doubles<std::int8_t>(data, size);
-    case MAT_T_UINT8:
-      return doubles<std::uint8_t>(data, size);
-    case MAT_T_INT16:
-      return doubles<std::int16_t>(data, size);
-    case MAT_T_UINT16:
-      return doubles<std::uint16_t>(data, size);
-    case MAT_T_INT32:
-      return doubles<std::int32_t>(data, size);
-    case MAT_T_UINT32:
-      return doubles<std::uint32_t>(data, size);
-    case MAT_T_INT64:
-      return doubles<std::int64_t>(data, size);
-    case MAT_T_UINT64:
-      return doubles<std::uint64_t>(data, size);
-    default:
-      return std::nullopt;
-  }
-}
-
-bool read_numbers(const matvar_t& variable, MatVariable& read) {
-  if (variable.class_type < MAT_C_DOUBLE || variable.class_type > MAT_C_UINT64 ||
-      variable.rank != 2) {
-    return false;
-  }
-  const std::size_t size = elements(variable);
-  if (variable.isComplex == 0) {
-    auto values = doubles_of(variable.data_type, variable.data, size);
-    if (!values) return false;
-    read.value = MatMatrix{variable.dims[0], variable.dims[1], std::move(*values)};
-    return true;
-  }
-  if (variable.data == nullptr) return false;
-  const auto* parts = static_cast<const mat_complex_split_t*>(variable.data);
-  const auto real = doubles_of(variable.data_type, parts->Re, size);
-  const auto imaginary = doubles_of(variable.data_type, parts->Im, size);
-  if (!real || !imaginary) return false;
-  MatComplexMatrix matrix{variable.dims[0], variable.dims[1], {}};
-  for (std::size_t i = 0; i < size; ++i) matrix.values.emplace_back((*real)[i], (*imaginary)[i]);
-  read.value = std::move(matrix);
-  return true;
-}
-
-/// Adds the variable under `name`, or the fields of a structure under names with a point.
-void append(matvar_t& variable, const std::string& name, MatContents& contents) {
-  MatVariable read{name, {}};
-  std::string text;
-  MatStrings texts;
-  if (variable.class_type == MAT_C_STRUCT && variable.rank == 2 && elements(variable) == 1) {
-    const unsigned fields = Mat_VarGetNumberOfFields(&variable);
-    char* const* names = Mat_VarGetStructFieldnames(&variable);
-    for (unsigned i = 0; i < fields; ++i) {
-      matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
-      if (field != nullptr) append(*field, fmt::format("{}.{}", name, names[i]), contents);
-    }
-    return;
-  }
-  if (read_text(variable, text)) {
-    read.value = std::move(text);
-  } else if (read_texts(variable, texts)) {
-    read.value = std::move(texts);
-  } else if (!read_numbers(variable, read)) {
-    contents.left_out.push_back(name);
-    return;
-  }
-  contents.variables.push_back(std::move(read));
-}
-
 /// The library does not check its writes: whether the bytes are those of so many whole variables,
 /// each with its size in its tag.
 bool holds(std::string_view bytes, std::size_t variables) {
@@ -298,38 +176,6 @@ void write_mat_file(const std::vector<MatVariable>& variables, const fs::path& p
                                      bytes.size(), most_bytes));
   }
   write_atomically(path, bytes);
-}
-
-MatContents read_mat_contents(const fs::path& path) {
-  const std::string bytes = read_text_file(path, kLargestMatFile_bytes);
-  constexpr std::string_view kMagic = "MATLAB 5.0 MAT-file";
-  if (!bytes.starts_with(kMagic)) {
-    throw unusable(path, "not a MATLAB 5 file; save with -v6 or -v7");
-  }
-  MatElements sound;
-  try {
-    sound = sound_elements(bytes);
-  } catch (const arm::InputError& error) {
-    throw unusable(path, error.what());
-  }
-  const MemoryFile memory(sound.file);
-  File file(Mat_Open(memory.path().c_str(), MAT_ACC_RDONLY));
-  if (!file || Mat_GetVersion(file.get()) != MAT_FT_MAT5) {
-    throw unusable(path, "not a MATLAB 5 file; save with -v6 or -v7");
-  }
-  MatContents contents{{}, std::move(sound.left_out)};
-  for (;;) {
-    const Variable variable(Mat_VarReadNext(file.get()));
-    if (!variable) return contents;
-    append(*variable, variable->name == nullptr ? "" : variable->name, contents);
-  }
-}
-
-std::vector<MatVariable> read_mat_file(const fs::path& path) {
-  MatContents contents = read_mat_contents(path);
-  if (contents.left_out.empty()) return std::move(contents.variables);
-  throw unusable(path, fmt::format("variable {} is neither a matrix of numbers nor text",
-                                   arm::shown(contents.left_out.front())));
 }
 
 }  // namespace flexarm::measured

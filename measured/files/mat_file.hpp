@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct MatPages {
 using MatStrings = std::vector<std::string>;
 
 /// A variable of a .mat file: a matrix (a scalar is 1 x 1) or several, a text in ASCII, or a list
-/// of texts. Pages are written alone: no file that is read has a use for them.
+/// of texts. Pages are written alone: they are read as vectors.
 struct MatVariable {
   std::string name;
   std::variant<MatMatrix, MatComplexMatrix, MatPages, std::string, MatStrings> value;
@@ -58,15 +59,23 @@ inline constexpr std::size_t kLargestMatFile_bytes = std::size_t{1} << 30U;
 void write_mat_file(const std::vector<MatVariable>& variables, const std::filesystem::path& path,
                     std::size_t most_bytes = kLargestMatFile_bytes);
 
-/// What a MATLAB 5 file holds.
+enum class MatLevel { level4, level5, level73 };
+
+/// What a MATLAB file holds.
 struct MatContents {
+  MatLevel level = MatLevel::level5;
   std::vector<MatVariable> variables;
-  std::vector<std::string> left_out;  ///< names of what is neither numbers nor text
+  std::vector<std::string> left_out;  ///< "NAME: what it is", of what is neither numbers nor text
 };
 
-/// The variables of a MATLAB 5 file, compressed or not, in its order: real and complex matrices of
-/// any class of numbers, as doubles; texts of one row; columns or rows of texts. The field f of a
-/// structure s is a variable "s.f".
+/// Whether bytes are those of a MATLAB file that `read_mat_contents` reads.
+bool is_mat_file(std::string_view bytes);
+
+/// The variables of a MATLAB file, in its order: of level 5 (-v6, compressed -v7), 7.3 (HDF5) or 4
+/// (-v4). Real and complex matrices of any class of numbers, as doubles; texts of one row; columns
+/// or rows of texts. The field f of a structure s is a variable "s.f", that of the second of
+/// several "s(2).f", the second cell of c "c{2}", or "c{1,2}" where there are several rows and
+/// columns. Arrays of more dimensions are vectors along the longest of them, "x(2,3,:)".
 ///
 /// Throws InputError "PATH: what is wrong" for a file that cannot be read, is none, or is damaged.
 MatContents read_mat_contents(const std::filesystem::path& path);

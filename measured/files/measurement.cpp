@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/controller_keys.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/payload_keys.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/time_record.hpp"
@@ -46,8 +47,8 @@ std::string_view word_of(const Table& table, T value) {
 }
 
 const std::vector<std::string> kTopKeys = {"name", "arm", "run"};
-const std::vector<std::string> kRunKeys = {"id",          "kind",    "file",    "purpose",
-                                           "torque_hold", "payload", "initial", "columns",
+const std::vector<std::string> kRunKeys = {"id",          "kind",      "file",    "purpose",
+                                           "torque_hold", "payload",   "initial", "columns",
                                            "reference",   "controller"};
 const std::vector<std::string> kColumnKeys = {"name", "expression", "unit", "scale"};
 
@@ -57,7 +58,6 @@ class MeasurementReader : measured::TomlFaults {
 
   Measurement read(const toml::table& document) {
     for (const auto& [key, node] : document) read_top_level(arm::shown(key.str()), node);
-    require(document, 1, "arm", "arm", "the arm file, relative to this file");
     require(document, 1, "run", "run", "at least one [[run]]");
     throw_first();
     return std::move(measurement_);
@@ -181,8 +181,10 @@ class MeasurementReader : measured::TomlFaults {
     run.reference = of_sensor == run.columns.end() ? ColumnMapping() : of_sensor->second;
     run.reference->name.clear();
     run.reference->expression.clear();
-    read_text(kKey, node, "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
-              "\"deg\" }", run.reference->name);
+    read_text(kKey, node,
+              "the quoted name of a column, or a table, as in { name = \"Cmd\", unit = "
+              "\"deg\" }",
+              run.reference->name);
   }
 
   void read_id(const toml::node& node, Run& run) {
@@ -310,15 +312,14 @@ std::string_view to_string(InitialState initial) {
 
 Measurement parse_measurement(std::string_view toml, const std::string& file_name) {
   if (toml.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    throw arm::located(InputError("empty; a measurement file needs arm and at least one [[run]]"),
+    throw arm::located(InputError("empty; a measurement file needs at least one [[run]]"),
                        file_name, 1);
   }
   return MeasurementReader(file_name).read(measured::parse_toml(toml, file_name));
 }
 
 Measurement read_measurement(const std::filesystem::path& path) {
-  return parse_measurement(measured::read_text_file(path, kLargestMeasurement_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::measurement, path, kLargestMeasurement_bytes, parse_measurement);
 }
 
 int line_of_run_key(const std::filesystem::path& measurement_file, const std::string& run_id,
@@ -340,10 +341,22 @@ int line_of_run_key(const std::filesystem::path& measurement_file, const std::st
   return 0;
 }
 
+std::filesystem::path arm_file_of(const std::filesystem::path& measurement_file,
+                                  const Measurement& measurement) {
+  if (measurement.arm.empty()) {
+    throw arm::located(
+        InputError("arm: missing; must be the arm file, relative to this file (flexarm identify "
+                   "alone needs none)",
+                   "arm"),
+        arm::shown(measurement_file.string()), 1);
+  }
+  return beside(measurement_file, measurement.arm);
+}
+
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& measurement_file,
                                             const Measurement& measurement) {
-  std::vector<std::filesystem::path> files = {measurement_file,
-                                              beside(measurement_file, measurement.arm)};
+  std::vector<std::filesystem::path> files = {measurement_file};
+  if (!measurement.arm.empty()) files.push_back(beside(measurement_file, measurement.arm));
   for (const Run& run : measurement.runs) files.push_back(beside(measurement_file, run.file));
   return files;
 }

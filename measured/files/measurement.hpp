@@ -54,7 +54,7 @@ struct Run {
 /// An experiment on one arm: measurement.toml (docs/formats.md).
 struct Measurement {
   std::string name;
-  std::string arm;  ///< arm file, relative to the measurement file
+  std::string arm;  ///< arm file, relative to the measurement file; empty: none is stated
   std::vector<Run> runs;
 
   bool operator==(const Measurement&) const = default;
@@ -89,6 +89,10 @@ void write_measurement(const Measurement& measurement, const std::filesystem::pa
 /// file: of the key that holds it where it is not there, and 0 where that is not there either.
 int line_of_run_key(const std::filesystem::path& measurement_file, const std::string& run_id,
                     const std::string& key);
+
+/// The arm file of a measurement; throws InputError where it states none.
+std::filesystem::path arm_file_of(const std::filesystem::path& measurement_file,
+                                  const Measurement& measurement);
 
 /// The measurement file, the arm's and the runs'.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& measurement_file,

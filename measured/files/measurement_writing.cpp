@@ -46,7 +46,7 @@ std::string format_measurement(const Measurement& measurement) {
     line(key, fmt::format("\"{}\"", value));
   };
   if (!measurement.name.empty()) line("name", quoted("name", measurement.name));
-  line("arm", quoted("arm", measurement.arm));
+  if (!measurement.arm.empty()) line("arm", quoted("arm", measurement.arm));
   for (const auto& run : measurement.runs) {
     out += "\n[[run]]\n";
     line("id", quoted("run.id", run.id));

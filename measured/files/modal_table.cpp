@@ -2,11 +2,12 @@
 
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
+#include "arm/number.hpp"
 #include "arm/range.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
-#include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -210,8 +211,7 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
 }
 
 ModalTable read_modal_table(const std::filesystem::path& path) {
-  return parse_modal_table(measured::read_text_file(path, kLargestModalTable_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::modal_table, path, kLargestModalTable_bytes, parse_modal_table);
 }
 
 std::string format_modal_table(const ModalTable& table) {
@@ -229,6 +229,18 @@ std::string format_modal_table(const ModalTable& table) {
     out += '\n';
   }
   return out;
+}
+
+void require_valid(const ModalTable& table) {
+  constexpr std::string_view kName = "entries:";
+  try {
+    parse_modal_table(format_modal_table(table), "entries");
+  } catch (const InputError& error) {
+    const std::string text = error.what();  // "entries:3: ..." of the second entry
+    const std::size_t end = text.find(": ");
+    const auto line = arm::parse_number<int>(text.substr(kName.size(), end - kName.size()));
+    throw InputError(line ? fmt::format("entry {}{}", *line - 1, text.substr(end)) : text);
+  }
 }
 
 void write_modal_table(const ModalTable& table, const std::filesystem::path& path) {

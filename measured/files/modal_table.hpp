@@ -48,6 +48,10 @@ ModalTable read_modal_table(const std::filesystem::path& path);
 /// The same for the text of a file; `file_name` stands in the errors.
 ModalTable parse_modal_table(std::string_view csv, const std::string& file_name);
 
+/// Throws InputError "entry 2: ..." for a table that no file could hold, as `parse_modal_table` for
+/// its rows.
+void require_valid(const ModalTable& table);
+
 /// The table as the text of a file; `parse_modal_table` reads the same table back, every double
 /// bit for bit.
 std::string format_modal_table(const ModalTable& table);

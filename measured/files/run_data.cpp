@@ -53,11 +53,10 @@ void require_loop_fits(const TimeRecord& record, const Run& run, const std::stri
   const arm::Sensor& sensor = controller.sensors.front();
   if (std::holds_alternative<arm::PidController>(controller.law) &&
       record.reference.unit != arm::unit(sensor)) {
-    throw InputError(
-        fmt::format("reference = \"{}\": in {} in {}; must be in {}, the unit of {}",
-                    run.reference->name, record.reference.unit, file_name, arm::unit(sensor),
-                    arm::to_string(sensor)),
-        "reference");
+    throw InputError(fmt::format("reference = \"{}\": in {} in {}; must be in {}, the unit of {}",
+                                 run.reference->name, record.reference.unit, file_name,
+                                 arm::unit(sensor), arm::to_string(sensor)),
+                     "reference");
   }
   try {
     arm::samples_per_period(controller, sampling_period_s(record));
@@ -67,7 +66,41 @@ void require_loop_fits(const TimeRecord& record, const Run& run, const std::stri
   }
 }
 
+/// The kind of a run that has such data.
+RunKind run_kind_of(const RunData& data) {
+  if (std::holds_alternative<TimeRecord>(data)) return RunKind::time;
+  return std::holds_alternative<FrequencyRecord>(data) ? RunKind::frf : RunKind::modal;
+}
+
 }  // namespace
+
+void require_valid(const Run& run, const RunData& data) {
+  const std::string place = "run " + arm::shown(run.id);
+  try {
+    if (run.kind != run_kind_of(data)) {
+      throw InputError(fmt::format("kind = \"{}\": its data are of kind {}", to_string(run.kind),
+                                   to_string(run_kind_of(data))));
+    }
+    if (const auto* record = std::get_if<TimeRecord>(&data)) {
+      require_valid(*record);
+      if (run.controller) require_loop_fits(*record, run, "the run");
+    } else if (const auto* responses = std::get_if<FrequencyRecord>(&data)) {
+      require_valid(*responses);
+    } else {
+      require_valid(std::get<ModalTable>(data));
+    }
+  } catch (const InputError& error) {
+    throw arm::located(error, place, 0);
+  }
+}
+
+std::string format_run_data(const RunData& data) {
+  if (const auto* time = std::get_if<TimeRecord>(&data)) return format_time_record(*time);
+  if (const auto* responses = std::get_if<FrequencyRecord>(&data)) {
+    return format_frequency_record(*responses);
+  }
+  return format_modal_table(std::get<ModalTable>(data));
+}
 
 RunData read_run(const std::filesystem::path& measurement_file, const Run& run) {
   const std::filesystem::path file = beside(measurement_file, run.file);

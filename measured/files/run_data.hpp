@@ -19,6 +19,14 @@ using RunData = std::variant<TimeRecord, FrequencyRecord, ModalTable>;
 /// Throws InputError `FILE:LINE: ...` where the reader of that file does.
 RunData read_run(const std::filesystem::path& measurement_file, const Run& run);
 
+/// The data as the text of a file of their kind (CSV); `read_run` reads the same data back.
+std::string format_run_data(const RunData& data);
+
+/// Throws InputError, with "run ID: " in front, for data in memory that no file of the run could
+/// hold: as `require_valid` of the record, for data of another kind than the run's, and for a loop
+/// that does not fit them.
+void require_valid(const Run& run, const RunData& data);
+
 /// A run of an experiment with what its file holds.
 struct MeasuredRun {
   Run run;

@@ -35,7 +35,7 @@ bool bends_only(arm::SensorKind kind) {
 SensorModel sensor_model(const arm::Sensor& sensor, Index index, const BlockSet& blocks,
                          std::span<const Stretch> stretches, const ColumnChoices& choices) {
   SensorModel model{.sensor = sensor, .columns = {}, .shared = 0};
-  for (std::size_t m = 0; m < blocks.blocks.size(); ++m) {
+  for (std::size_t m = 0; choices.forced && m < blocks.blocks.size(); ++m) {
     const bool held = blocks.is_held(m);
     const bool undamped = held || choices.undamped_residues ||
                           blocks.blocks[m].omega_rad_per_s() > choices.undamped_above_rad_per_s;
@@ -46,11 +46,12 @@ SensorModel sensor_model(const arm::Sensor& sensor, Index index, const BlockSet&
     }
   }
   const bool in_time = std::ranges::any_of(stretches, &Stretch::in_time);
-  if (choices.static_remainder && (!in_time || arm::derivative_order(sensor) == 0)) {
+  if (choices.forced && choices.static_remainder &&
+      (!in_time || arm::derivative_order(sensor) == 0)) {
     model.columns.push_back({.kind = Kind::remainder});
   }
   model.shared = static_cast<Index>(model.columns.size());
-  if (in_time && choices.jumps && arm::derivative_order(sensor) == 2) {
+  if (in_time && choices.forced && choices.jumps && arm::derivative_order(sensor) == 2) {
     model.columns.push_back({.kind = Kind::jump});
   }
   for (std::size_t r = 0; r < stretches.size(); ++r) {

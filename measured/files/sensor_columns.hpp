@@ -62,6 +62,8 @@ struct ColumnChoices {
   bool static_remainder = true;
   bool offset = true;
   bool jumps = true;  ///< the torque is held from sample to sample
+  /// Some torque is not zero: a free decay has neither forced columns nor a remainder.
+  bool forced = true;
   /// `SensorColumn::tightness` of held blocks: sensors x held.
   Eigen::MatrixXd held_tightness = {};
 };

@@ -75,7 +75,7 @@ void require_no_controls(string_view text) {
   if (bad == text.end()) return;
   throw InputError(fmt::format(
       "not text: byte {:#04x} at place {}; must be delimited text, a universal file or a MATLAB "
-      "file saved with -v6 or -v7",
+      "file",
       static_cast<unsigned>(static_cast<unsigned char>(*bad)), bad - text.begin() + 1));
 }
 

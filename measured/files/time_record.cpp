@@ -4,9 +4,9 @@
 #include "arm/nearest_name.hpp"
 #include "measured/files/atomic_file.hpp"
 #include "measured/files/csv.hpp"
+#include "measured/files/file_kind.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/record_constants.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/time_grid.hpp"
 #include "measured/files/unit.hpp"
 
@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <stdexcept>
 
 namespace flexarm::measured {
 
@@ -93,8 +92,7 @@ void take_unit(Column& column, std::optional<std::string_view> given,
   const std::string& name = column.name;
   if (!given) {
     throw InputError(fmt::format("column {}: unit missing; write {} [{}]; allowed: {}",
-                                 arm::shown(name), name, si_units.front(),
-                                 fmt::join(names, ", ")));
+                                 arm::shown(name), name, si_units.front(), fmt::join(names, ", ")));
   }
   throw InputError(fmt::format("column {}: unit {} unknown{}; allowed: {}", name,
                                arm::shown(*given), arm::did_you_mean(*given, names),
@@ -184,24 +182,6 @@ void require_finite_values(std::string_view name, const std::vector<double>& val
                                bad - values.begin() + 1));
 }
 
-void require_writable(const TimeRecord& record) {
-  const std::size_t samples = record.time_s.size();
-  bool even = record.torque_N_m.size() == samples;
-  for (const auto& channel : record.channels) even = even && channel.values.size() == samples;
-  const Reference& reference = record.reference;
-  even = even && (reference.values.empty() || reference.values.size() == samples);
-  if (!even) throw std::invalid_argument("columns of different length");
-  if (std::ranges::count(kSensorUnits, reference.unit) != (reference.values.empty() ? 0 : 1)) {
-    throw std::invalid_argument("a reference without its unit, or a unit without reference");
-  }
-  require_finite_values(kReferenceColumn, reference.values);
-  require_finite_values(kTime, record.time_s);
-  require_finite_values(kTorque, record.torque_N_m);
-  for (const auto& channel : record.channels) {
-    require_finite_values(arm::to_string(channel.sensor), channel.values);
-  }
-}
-
 /// The shortest decimal that reads back to the same double.
 void append_number(std::string& out, double value) {
   std::array<char, 32> digits;
@@ -252,25 +232,59 @@ TimeRecord parse_record(std::string_view csv, const std::string& file_name,
 
 }  // namespace
 
+void require_valid(const TimeRecord& record) {
+  const std::size_t samples = record.time_s.size();
+  const auto require_length = [&](std::string_view name, std::size_t length) {
+    if (length == samples) return;
+    throw InputError(fmt::format("{}: {} values; must be {}, one for each time", name, length,
+                                 samples));
+  };
+  const Reference& reference = record.reference;
+  require_length(kTorque, record.torque_N_m.size());
+  if (!reference.values.empty()) require_length(kReferenceColumn, reference.values.size());
+  for (const auto& channel : record.channels) {
+    const std::string name = arm::to_string(channel.sensor);
+    require_length(name, channel.values.size());
+    if (std::ranges::count(record.channels, channel.sensor, &Channel::sensor) > 1) {
+      throw InputError(fmt::format("{}: given twice", name));
+    }
+  }
+  if (samples < 2) throw InputError(fmt::format("{} samples; needs at least two", samples));
+  if (std::ranges::count(kSensorUnits, reference.unit) != (reference.values.empty() ? 0 : 1)) {
+    throw InputError(fmt::format("{}: unit {}; must be one of {}", kReferenceColumn,
+                                 arm::shown(reference.unit), fmt::join(kSensorUnits, ", ")));
+  }
+  require_finite_values(kReferenceColumn, reference.values);
+  require_finite_values(kTime, record.time_s);
+  require_finite_values(kTorque, record.torque_N_m);
+  for (const auto& channel : record.channels) {
+    require_finite_values(arm::to_string(channel.sensor), channel.values);
+  }
+  if (const auto fault = grid_fault(record.time_s)) {
+    throw InputError(fmt::format("sample {}: {}", fault->sample + 1, fault->error.what()));
+  }
+}
+
 TimeRecord parse_time_record(std::string_view csv, const std::string& file_name) {
   return parse_record(csv, file_name, kOfRecord);
 }
 
 TimeRecord read_time_record(const std::filesystem::path& path) {
-  return parse_time_record(measured::read_text_file(path, kLargestRecord_bytes),
-                           arm::shown(path.string()));
+  return read_file_as(FileKind::time_record, path, kLargestRecord_bytes, parse_time_record);
 }
 
 TimeRecord read_reference(const std::filesystem::path& path) {
-  TimeRecord record = parse_record(measured::read_text_file(path, kLargestRecord_bytes),
-                                   arm::shown(path.string()), kOfReference);
+  TimeRecord record = read_file_as(FileKind::time_record, path, kLargestRecord_bytes,
+                                   [](const std::string& text, const std::string& file_name) {
+                                     return parse_record(text, file_name, kOfReference);
+                                   });
   record.torque_N_m.assign(record.time_s.size(), 0.0);
   record.channels.clear();
   return record;
 }
 
 std::string format_time_record(const TimeRecord& record) {
-  require_writable(record);
+  require_valid(record);
   std::string out = "time [s],torque [N m]";
   for (const auto& channel : record.channels) {
     out += fmt::format(",{} [{}]", arm::to_string(channel.sensor), arm::unit(channel.sensor));

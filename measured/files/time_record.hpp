@@ -72,9 +72,13 @@ TimeRecord parse_time_record(std::string_view csv, const std::string& file_name)
 /// `read_time_record`.
 TimeRecord read_reference(const std::filesystem::path& path);
 
+/// Throws InputError for a record that no file could hold: vectors of unlike length, less than two
+/// samples, a value that is not finite, a sensor twice, a reference whose unit is no sensor's, and
+/// times as `read_time_record`.
+void require_valid(const TimeRecord& record);
+
 /// The record as the text of a file, in SI units; `parse_time_record` reads the same record back,
-/// every double bit for bit. Throws std::invalid_argument for vectors of unlike length, and
-/// InputError for a value that is not finite.
+/// every double bit for bit. Throws InputError as `require_valid`.
 std::string format_time_record(const TimeRecord& record);
 
 /// `format_time_record` written to `path`, whole or not at all (measured/files/atomic_file.hpp).

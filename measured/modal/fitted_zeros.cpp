@@ -172,7 +172,7 @@ bool is_held_by_disc(Complex middle, double radius, const FittedTransfer& transf
 
 std::vector<FittedZero> fitted_zeros(const FittedTransfer& transfer, const MatrixXd& covariance,
                                      double from_Hz, double to_Hz) {
-  if (transfer.blocks().blocks.empty()) return {};
+  if (transfer.blocks().blocks.empty() || transfer.beta().isZero(0.0)) return {};
   const double highest = highest_pole(transfer.blocks());
   const Pencil pencil = pencil_of(transfer, highest);
   Eigen::GeneralizedEigenSolver<MatrixXd> solver(pencil.a, pencil.e, false);

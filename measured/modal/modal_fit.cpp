@@ -22,11 +22,12 @@ using Eigen::MatrixXd;
 constexpr double kHeavy = 0.1;
 constexpr double kHeavyTurn = 0.03;
 constexpr double kNearColumn = 0.05;
+/// Standard errors above 0 of a damping ratio that a free decay shows without a column.
+constexpr double kSureDecay = 4.0;
 constexpr double kNearDamping = 0.3;
 /// Residuals below this share of the reading are rounding, whatever their colour.
 constexpr double kOnlyRounding = 1e-6;
-/// Shares of the progress.
-constexpr double kAfterChart = 0.1;
+constexpr double kAfterChart = 0.1;  // shares of the progress
 constexpr double kOfSearch = 0.55;
 constexpr double kHalfWay = 0.55;
 constexpr int kWeighings = 3;
@@ -105,10 +106,13 @@ void judge_poles(ModalFit& fit, const ModalFitOptions& options, bool unexplained
   for (std::size_t i = 0; i < fit.poles.size(); ++i) {
     FittedPole& pole = fit.poles[i];
     pole.is_mode = false;
-    if (!fit.band.contains(pole.frequency_Hz) || pole.damping_ratio > options.most_damping_ratio) {
-      continue;
-    }
-    if (pole.damping_ratio > kHeavy) {
+    if (!fit.band.contains(pole.frequency_Hz)) continue;
+    if (std::abs(pole.damping_ratio) > options.most_damping_ratio) continue;
+    const bool is_light = pole.damping_ratio <= kHeavy;
+    if (fit.free_decay) {  // without residues
+      const bool decays = pole.damping_ratio > kSureDecay * pole.damping_ratio_std;
+      pole.is_mode = charted[i] || (decays && is_light);
+    } else if (!is_light) {
       pole.is_mode = pole.residue_turn <= kHeavyTurn ||
                      (charted[i] && pole.residue_turn <= options.most_residue_turn);
     } else {
@@ -170,9 +174,10 @@ void describe_sensors(ModalFit& fit, const BlockFit& blocks, const ResidualStudy
     for (std::size_t m = 0; m < fit.blocks.free_blocks(); ++m) {
       sensor.numerators.push_back(numerator_of(transfer, covariance, m));
     }
-    const auto& last =
-        blocks.models[j].columns[static_cast<std::size_t>(blocks.models[j].shared - 1)];
-    if (last.kind == SensorColumn::Kind::remainder) {
+    const auto& columns = blocks.models[j].columns;
+    const Index shared = blocks.models[j].shared;
+    if (shared > 0 &&
+        columns[static_cast<std::size_t>(shared - 1)].kind == SensorColumn::Kind::remainder) {
       sensor.remainder = transfer.beta().tail<1>()(0);
       sensor.remainder_std = std::sqrt(covariance.bottomRightCorner<1, 1>()(0));
     }
@@ -252,7 +257,8 @@ Attempt search_and_fit(const ModalFitTask& task, const ModalFitOptions& options,
   ColumnChoices choices{.undamped_residues = options.undamped_residues,
                         .static_remainder = options.static_remainder,
                         .offset = options.offset,
-                        .jumps = false};
+                        .jumps = false,
+                        .forced = task.forced};
   const double limit = beyond_band_rad_per_s(task);
   const double middle = 0.5 * (from + to);
   Attempt whole = attempt(task, options, choices, chart, part(from, middle));
@@ -308,6 +314,7 @@ bool leaves_noise(const ResidualStudy& study) {
 ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   ModalFit fit;
   fit.band = task.band;
+  fit.free_decay = !task.forced;
   fit.chart = chart_of(task, options);
   const bool several_runs = task.in_time && task.all.size() > 1;
   const double middle = several_runs ? kHalfWay : 1.0;
@@ -330,7 +337,7 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   fit.converged = best.converged;
   fit.cancelled = best.cancelled;
   ResidualStudy study = study_residuals(task.all, best);
-  if (!best.cancelled && leaves_noise(study)) {
+  if (!best.cancelled && task.forced && leaves_noise(study)) {
     ModesBeyond beyond = with_modes_beyond(best, found.choices, fit.band);
     beyond.choices.jumps = options.torque_hold == TorqueHold::zero;
     const ProjectionOptions projection{.most_iterations = options.most_iterations};
@@ -370,7 +377,7 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     }
     judge_poles(fit, options, unexplained);
   }
-  if (leaves_noise(study)) count_unsure_blocks(fit);
+  if (task.forced && leaves_noise(study)) count_unsure_blocks(fit);
   describe_sensors(fit, best, study);
   if (options.progress) options.progress(1.0);
   return fit;

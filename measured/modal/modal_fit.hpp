@@ -98,6 +98,8 @@ struct ModalFit {
   /// The rigid body's first, then ascending in frequency, then held ones for what lies beyond the
   /// band (measured/modal/modes_beyond.hpp).
   BlockSet blocks;
+  /// No record had a torque: the numerators are unknown, and `sensors` have no zeros.
+  bool free_decay = false;
   double rigid_a1_rad_per_s = 0.0;  ///< hub friction over inertia
   double rigid_a1_std_rad_per_s = 0.0;
   std::vector<FittedPole> poles;  ///< one a flexible block
@@ -133,13 +135,13 @@ struct ModalFit {
 /// share poles and numerators, not offsets and initial states. Start values are poles of a common
 /// denominator that are stable over its order (measured/modal/common_denominator.hpp).
 ///
-/// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit and as many
-/// with the held blocks among them.
+/// Cost: samples x (4 blocks + sensors + 3)^2 x 2 operations a pass, some 5 passes a fit and as
+/// many with the held blocks among them.
 ///
 /// Throws InputError for no record or channel, records shorter than kLeastSamples samples or
-/// kLeastLines frequencies, a torque that is zero, a sensor that is constant, a value that is not
-/// finite, a band that holds nothing, and options out of their range; std::invalid_argument for
-/// vectors of unlike length or a sensor twice in a record.
+/// kLeastLines frequencies, a torque that is zero in a run from rest, a sensor that is constant, a
+/// value that is not finite, a band that holds nothing, and options out of their range;
+/// std::invalid_argument for vectors of unlike length or a sensor twice in a record.
 ModalFit fit_modes(std::span<const TimeRecord> records, const ModalFitOptions& options = {});
 ModalFit fit_modes(const FrequencyRecord& record, const ModalFitOptions& options = {});
 inline constexpr std::size_t kLeastSamples = 64;

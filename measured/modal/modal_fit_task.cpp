@@ -60,7 +60,7 @@ void require_finite(const std::string& name, std::span<const double> values) {
       fmt::format("{} = {} at sample {}: must be a finite number", name, *at, at - values.begin()));
 }
 
-void require_record(const TimeRecord& record) {
+void require_record(const TimeRecord& record, InitialState initial) {
   const std::size_t samples = record.time_s.size();
   bool alike = record.torque_N_m.size() == samples;
   for (const Channel& channel : record.channels) alike &= channel.values.size() == samples;
@@ -72,7 +72,7 @@ void require_record(const TimeRecord& record) {
   }
   if (record.channels.empty()) throw arm::InputError("a record without a sensor cannot be fitted");
   require_finite("torque", record.torque_N_m);
-  if (std::ranges::all_of(record.torque_N_m, [](double u) { return u == 0.0; })) {
+  if (initial == InitialState::rest && is_zero(record.torque_N_m)) {
     throw arm::InputError("torque is zero at all samples: no response to fit");
   }
   for (const Channel& channel : record.channels) {
@@ -183,13 +183,20 @@ ModalFitTask time_task(std::span<const TimeRecord> records, const ModalFitOption
   }
   double shortest_s = std::numeric_limits<double>::infinity();
   double longest_s = 0.0;
-  for (const TimeRecord& record : records) {
-    require_record(record);
+  const auto initial_of = [&options](std::size_t r) {
+    return options.initial.empty() ? InitialState::rest
+                                   : options.initial[std::min(r, options.initial.size() - 1)];
+  };
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const TimeRecord& record = records[r];
+    require_record(record, initial_of(r));
     shortest_s = std::min(shortest_s, sampling_period_s(record));
     longest_s = std::max(longest_s, sampling_period_s(record));
   }
   ModalFitTask task;
   task.in_time = true;
+  task.forced = !std::ranges::all_of(
+      records, [](const TimeRecord& record) { return is_zero(record.torque_N_m); });
   task.period_s = longest_s <= shortest_s * (1.0 + kSamePeriod) ? shortest_s : 0.0;
   task.band = time_band(records, options, shortest_s);
   task.highest_Hz = 0.5 / shortest_s;
@@ -200,13 +207,10 @@ ModalFitTask time_task(std::span<const TimeRecord> records, const ModalFitOption
     for (const Channel& channel : record.channels) {
       sensors.push_back(sensor_index(task.sensors, channel.sensor));
     }
-    const InitialState initial = options.initial.empty()
-                                     ? InitialState::rest
-                                     : options.initial[std::min(r, options.initial.size() - 1)];
     task.all.push_back(
-        time_stretch(record, sensors, options.torque_hold, initial, record.time_s.size()));
+        time_stretch(record, sensors, options.torque_hold, initial_of(r), record.time_s.size()));
     task.search.push_back(
-        time_stretch(record, sensors, options.torque_hold, initial, options.search_samples));
+        time_stretch(record, sensors, options.torque_hold, initial_of(r), options.search_samples));
     for (auto& equation :
          time_equations(record, options.rigid_body, task.band, options.search_samples)) {
       task.equations.push_back(std::move(equation));

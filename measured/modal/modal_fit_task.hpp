@@ -18,6 +18,7 @@ struct ModalFitTask {
   FitBand band;
   double angle_period_s = 0.0;  ///< angle of the equations over omega
   bool in_time = true;
+  bool forced = true;  ///< false: the torque of all records is zero, each a free decay
   /// Half the sampling frequency of the fastest run; infinite for frequency responses.
   double highest_Hz = std::numeric_limits<double>::infinity();
   /// Sampling period that all records have; 0 where there is none, so that nothing is an alias in

@@ -156,9 +156,9 @@ ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_
   };
   gains.total_inertia_kg_m2 = estimate(fit, inertia);
   if (!(gains.total_inertia_kg_m2.value > 0.0)) {
-    throw arm::InputError(fmt::format(
-        "modal gains: estimated 1/I_T = {:.3g} 1/(kg m^2) is not positive; check the signs of "
-        "torque and hub sensor, or give I_T if friction dominates the rigid-body motion",
+    throw UnphysicalInertia(fmt::format(
+        "1/I_T = {:.3g} 1/(kg m^2) is not positive; check the signs of torque and hub sensor, or "
+        "give I_T if friction dominates the rigid-body motion",
         1.0 / gains.total_inertia_kg_m2.value));
   }
   std::vector<std::size_t> modes;

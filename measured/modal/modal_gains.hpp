@@ -1,11 +1,18 @@
 #pragma once
 
+#include "arm/input_error.hpp"
 #include "measured/modal/modal_fit.hpp"
 
 #include <optional>
 #include <vector>
 
 namespace flexarm::measured {
+
+/// A total inertia at 0 or below, which no arm has.
+class UnphysicalInertia : public arm::InputError {
+ public:
+  using InputError::InputError;
+};
 
 /// A number with its standard error.
 struct Estimate {
@@ -43,7 +50,8 @@ struct ModalGains {
 /// calibrated in N m.
 ///
 /// Throws InputError when neither hub angle nor hub velocity was measured, when the inertia has to
-/// be found and the fit has no rigid-body block, or it comes out at 0 or below.
+/// be found and the fit has no rigid-body block; UnphysicalInertia where it comes out at 0 or
+/// below.
 ModalGains modal_gains(const ModalFit& fit, std::optional<double> total_inertia_kg_m2 = {});
 
 }  // namespace flexarm::measured

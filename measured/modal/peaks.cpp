@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace flexarm::measured {
@@ -16,6 +17,7 @@ namespace flexarm::measured {
 namespace {
 
 const double kdB = 10.0 / std::log(10.0);
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// The lines looked at.
 struct Levels {
@@ -30,6 +32,7 @@ double log_quantile(double relative_std, double probability) {
   constexpr double kExact = 1e-7;
   if (!(relative_std > kExact)) return 0.0;
   const double shape = 1.0 / (relative_std * relative_std);
+  if (shape == 0.0) return std::copysign(kUnbounded, probability - 0.5);  // nothing is known
   return std::log(boost::math::gamma_p_inv(shape, probability) / shape);
 }
 

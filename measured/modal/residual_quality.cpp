@@ -1,9 +1,9 @@
 #include "measured/modal/residual_quality.hpp"
 
+#include "measured/spectra/correlation.hpp"
+#include "measured/spectra/tail_probability.hpp"
+
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/complement.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/statistics/ljung_box.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -141,17 +141,18 @@ FTest explained_by_torque(const VectorXd& residual, const VectorXd& torque) {
   const double left = all - explained;
   if (!(left > 0.0) || !(explained > 0.0)) return {};
   const double freedom = static_cast<double>(rows - kTorqueLags);
-  const boost::math::fisher_f distribution(kTorqueLags, freedom);
   const double f = explained / kTorqueLags / (left / freedom);
-  return {boost::math::cdf(boost::math::complement(distribution, f)), explained / all};
+  return {f_tail(f, kTorqueLags, freedom), explained / all};
 }
 
 void judge(ResidualQuality& quality, const VectorXd& residual, const VectorXd& torque,
            bool in_time) {
   if (residual.size() <= 2 * kWhitenessLags || residual.squaredNorm() == 0.0) return;
-  const std::vector<double> values(residual.begin(), residual.end());
-  const auto [statistic, probability] =
-      boost::math::statistics::ljung_box(values, static_cast<std::int64_t>(kWhitenessLags));
+  const double statistic =
+      ljung_box({residual.data(), static_cast<std::size_t>(residual.size())}, kWhitenessLags);
+  // Residuals that are no numbers are no noise.
+  const double probability =
+      std::isnan(statistic) ? 0.0 : chi_squared_tail(statistic, kWhitenessLags);
   quality.whiteness_probability = std::min(quality.whiteness_probability, probability);
   if (!in_time) return;
   const FTest test = explained_by_torque(residual, torque);

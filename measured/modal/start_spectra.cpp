@@ -44,6 +44,10 @@ double noise_of(const ArrayXcd& lines) {
 
 }  // namespace
 
+bool is_zero(std::span<const double> torque_N_m) {
+  return std::ranges::all_of(torque_N_m, [](double torque) { return torque == 0.0; });
+}
+
 FitBand excited_band(const TimeRecord& record) {
   const std::size_t samples = fast_length_within(record.time_s.size());
   const auto lines = lines_of(record.torque_N_m, samples);
@@ -53,7 +57,7 @@ FitBand excited_band(const TimeRecord& record) {
     power[std::min(power.size() - 1, k * power.size() / lines.size())] += std::norm(lines[k]);
   }
   const double largest = *std::ranges::max_element(power);
-  std::size_t highest = power.size();
+  std::size_t highest = power.size();  // of a free decay: the initial state has power everywhere
   while (highest > 1 && power[highest - 1] < kBandPower * largest) --highest;
   return {2.0 * nyquist_Hz / static_cast<double>(lines.size()),
           nyquist_Hz * static_cast<double>(highest) / static_cast<double>(power.size())};
@@ -87,6 +91,7 @@ std::vector<DenominatorEquation> time_equations(const TimeRecord& record, bool r
       equation.inputs[0](i) = torque[k] / divisor;
       equation.inputs[1](i) = 1.0 / divisor;
     }
+    if (is_zero(record.torque_N_m)) equation.inputs.erase(equation.inputs.begin());
     const double noise = noise_of(equation.y);
     equation.y /= noise;
     for (ArrayXcd& input : equation.inputs) input /= noise;

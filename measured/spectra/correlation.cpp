@@ -109,4 +109,20 @@ ResidualCorrelation residual_correlation(std::span<const double> residual,
   return made;
 }
 
+double ljung_box(std::span<const double> residual, int lags, std::size_t stride) {
+  const std::size_t n = residual.size();
+  double squares = 0.0;
+  for (const double value : residual) squares += value * value;
+  if (squares == 0.0) return 0.0;
+  double sum = 0.0;
+  for (std::size_t shift = stride; shift <= static_cast<std::size_t>(lags) * stride;
+       shift += stride) {
+    double products = 0.0;
+    for (std::size_t k = shift; k < n; ++k) products += residual[k] * residual[k - shift];
+    const double rho = products / squares;
+    sum += rho * rho / static_cast<double>(n - shift);
+  }
+  return static_cast<double>(n) * static_cast<double>(n + 2) * sum;
+}
+
 }  // namespace flexarm::measured

@@ -39,4 +39,9 @@ inline constexpr double kCorrelationLevel = 0.99;
 ResidualCorrelation residual_correlation(std::span<const double> residual,
                                          std::span<const double> input, std::size_t most_lag);
 
+/// n (n + 2) sum_l rho_l^2/(n - l stride), l = 1 to `lags`, of lags of `stride` numbers each
+/// [LjungBox1978]: of white noise a chi-squared variable of `lags` degrees of freedom. The
+/// autocorrelation is about zero, not the mean: a constant residual is no noise. 0 of zeros.
+double ljung_box(std::span<const double> residual, int lags, std::size_t stride = 1);
+
 }  // namespace flexarm::measured

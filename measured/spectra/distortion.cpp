@@ -1,6 +1,7 @@
 #include "measured/spectra/distortion.hpp"
 
-#include <boost/math/special_functions/gamma.hpp>
+#include "measured/spectra/tail_probability.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ double joint_probability(const std::vector<double>& probabilities) {
     sum -= std::log(std::max(p, std::numeric_limits<double>::min()));
   }
   // Fisher: -2 sum log p is chi^2 with 2 n degrees of freedom.
-  const double fisher = boost::math::gamma_q(count, sum);
+  const double fisher = chi_squared_tail(2.0 * sum, 2.0 * count);
   const double smallest = -std::expm1(
       count * std::log1p(-std::min(1.0 - 1e-16, *std::ranges::min_element(probabilities))));
   return std::min(1.0, 2.0 * std::min(fisher, smallest));

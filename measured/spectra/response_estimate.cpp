@@ -54,6 +54,7 @@ void from_segments(const TimeRecord& record, FrequencyResponseEstimate& made) {
   made.averages = spectra.effective_averages;
   made.spacing_Hz = spectra.spacing_Hz;
   made.noise_bandwidth_Hz = spectra.noise_bandwidth_Hz;
+  made.sampling_period_s = period_s;
   made.hold = hold_at(spectra.frequency_Hz, period_s, made.settings);
   const std::size_t lines = spectra.frequency_Hz.size();
   const bool has_middle = made.settings.plan.segment_samples % 2 == 0;
@@ -144,6 +145,7 @@ void from_periods(const TimeRecord& record, FrequencyResponseEstimate& made) {
     if (all.periods > 1) made.joint.push_back(all.noise_covariance[k]);
   }
   auto spectra = period_power(all, lines, made.spacing_Hz);
+  made.sampling_period_s = period_s;
   made.hold = hold_at(made.frequency_Hz, period_s, settings);
   const auto& x = all.input;
   for (std::size_t i = 0; i < outputs.size(); ++i) {

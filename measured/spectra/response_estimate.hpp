@@ -49,6 +49,7 @@ struct FrequencyResponseEstimate {
   /// S_ab, or of a periodic input E[conj(d a) d b] of the amplitudes. Empty for random torque by
   /// itself and for one period.
   std::vector<Eigen::MatrixXcd> joint;
+  double sampling_period_s = 0.0;
   double spacing_Hz = 0.0;          ///< of lines, driven or not
   double noise_bandwidth_Hz = 0.0;  ///< of the window
   ChosenSettings settings;

@@ -56,6 +56,7 @@ from ._flexarm import (
     diagnose,
     effects,
     identify,
+    import_log,
     plan,
     read_arm,
     read_measurement,
@@ -112,6 +113,7 @@ __all__ = [
     "diagnose",
     "effects",
     "identify",
+    "import_log",
     "plan",
     "read_arm",
     "read_measurement",
@@ -119,6 +121,8 @@ __all__ = [
     "simulate",
     "simulate_experiment",
 ]
+
+from . import _conversions, _html, _methods, _pandas  # noqa: E402, F401: methods of the classes
 
 for _name in __all__:
     if _name != "__version__":

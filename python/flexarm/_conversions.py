@@ -1,15 +1,7 @@
 """Results as objects of SciPy, python-control and xarray, each imported when it is asked for."""
 
-
-def _imported(module, what, package):
-    import importlib
-
-    try:
-        return importlib.import_module(module)
-    except ImportError as error:
-        raise ImportError(
-            f"{what} needs {package}, which is not installed"
-        ) from error
+from ._flexarm import FrequencyResponse, SimulatedRun, StateSpace, TimeRun
+from ._methods import imported, method
 
 
 def _require_no_delays(system, kind):
@@ -28,30 +20,45 @@ def _require_no_delays(system, kind):
         )
 
 
-def to_scipy(system, ignore_delays):
-    signal = _imported("scipy.signal", "to_scipy", "SciPy")
+@method("to_scipy", StateSpace)
+def state_space_to_scipy(self, *, ignore_delays=False):
+    """scipy.signal.StateSpace of A, B, C, D. It has no delays: raises ValueError where there are
+    some. Raises ImportError where SciPy is not installed.
+
+    Arguments:
+      ignore_delays: leave delays out instead
+    """
+    signal = imported("scipy.signal", "to_scipy", "SciPy")
     if not ignore_delays:
-        _require_no_delays(system, "scipy.signal.StateSpace")
-    return signal.StateSpace(system.A, system.B, system.C, system.D)
+        _require_no_delays(self, "scipy.signal.StateSpace")
+    return signal.StateSpace(self.A, self.B, self.C, self.D)
 
 
-def to_control(system, ignore_delays):
-    control = _imported("control", "to_control", "python-control")
+@method("to_control", StateSpace)
+def state_space_to_control(self, *, ignore_delays=False):
+    """control.StateSpace (python-control) of A, B, C, D, with names of input, outputs and states.
+    Delays as in to_scipy. Raises ImportError where python-control is not installed.
+
+    Arguments:
+      ignore_delays: leave delays out instead of raising ValueError
+    """
+    control = imported("control", "to_control", "python-control")
     if not ignore_delays:
-        _require_no_delays(system, "control.StateSpace")
+        _require_no_delays(self, "control.StateSpace")
     return control.ss(
-        system.A,
-        system.B,
-        system.C,
-        system.D,
+        self.A,
+        self.B,
+        self.C,
+        self.D,
         inputs=["torque"],
-        outputs=list(system.sensors),
-        states=list(system.states),
+        outputs=list(self.sensors),
+        states=list(self.states),
     )
 
 
-def _variables(xarray, names, units, arrays, dimension, coordinate, unit):
+def _dataset(names, units, arrays, dimension, coordinate, unit):
     """A dataset with a variable for each name over one coordinate, units as attributes."""
+    xarray = imported("xarray", "to_xarray", "xarray")
     return xarray.Dataset(
         {
             name: (dimension, array, {"units": of})
@@ -61,28 +68,23 @@ def _variables(xarray, names, units, arrays, dimension, coordinate, unit):
     )
 
 
-def response_to_xarray(response):
-    xarray = _imported("xarray", "to_xarray", "xarray")
-    return _variables(
-        xarray,
-        response.sensors,
-        [f"{unit}/(N m)" for unit in response.units],
-        response.values,
-        "frequency",
-        response.frequency_Hz,
-        "Hz",
-    )
+@method("to_xarray", FrequencyResponse)
+def frequency_response_to_xarray(self):
+    """xarray.Dataset with a complex variable for each sensor over frequency [Hz], units as
+    attributes. Raises ImportError where xarray is not installed."""
+    units = [f"{unit}/(N m)" for unit in self.units]
+    return _dataset(self.sensors, units, self.values, "frequency", self.frequency_Hz, "Hz")
 
 
-def record_to_xarray(record):
-    """Of anything with time_s, torque_N_m, sensors, units and a row for each sensor."""
-    xarray = _imported("xarray", "to_xarray", "xarray")
-    return _variables(
-        xarray,
-        ["torque", *record.sensors],
-        ["N m", *record.units],
-        [record.torque_N_m, *(record[sensor] for sensor in record.sensors)],
+@method("to_xarray", SimulatedRun, TimeRun)
+def record_to_xarray(self):
+    """xarray.Dataset with torque and sensors over time [s], units as attributes. Raises ImportError
+    where xarray is not installed."""
+    return _dataset(
+        ["torque", *self.sensors],
+        ["N m", *self.units],
+        [self.torque_N_m, *(self[sensor] for sensor in self.sensors)],
         "time",
-        record.time_s,
+        self.time_s,
         "s",
     )

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, overload
+from typing import Any, Literal, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,9 @@ _Complexes = NDArray[np.complex128]
 _Path = str | PathLike[str]
 _Sensors = str | Iterable[str]
 _Progress = Callable[[float], object] | Literal[False] | None
+
+_Run = Union["TimeRun", "FrequencyRun", "ModalRun"]
+_Texts = str | Sequence[str]
 
 class InputError(ValueError): ...
 
@@ -34,15 +37,49 @@ class ArmNumber:
     def required(self) -> bool: ...
 
 class Arm:
-    def __init__(self, name: str = ..., **numbers: float) -> None: ...
+    def __init__(
+        self,
+        name: str = '',
+        *,
+        beam_length_m: float | None = None,
+        beam_width_m: float | None = None,
+        beam_thickness_m: float | None = None,
+        beam_density_kg_per_m3: float | None = None,
+        beam_youngs_modulus_Pa: float | None = None,
+        beam_shear_modulus_Pa: float | None = None,
+        beam_flexural_rigidity_N_m2: float | None = None,
+        beam_linear_density_kg_per_m: float | None = None,
+        hub_inertia_kg_m2: float | None = None,
+        hub_viscous_friction_N_m_s_per_rad: float | None = None,
+        payload_mass_kg: float | None = None,
+        payload_inertia_kg_m2: float | None = None,
+        damping_kelvin_voigt_s: float | None = None,
+    ) -> None: ...
     @staticmethod
     def paper() -> Arm: ...
     @staticmethod
     def from_toml(text: str) -> Arm: ...
     def to_toml(self) -> str: ...
     def write(self, path: _Path) -> None: ...
-    def with_(self, name: str | None = ..., **numbers: float) -> Arm: ...
-    def with_effect(self, effect: str, sensor: str = ..., **parameters: float) -> Arm: ...
+    def with_(
+        self,
+        name: str | None = None,
+        *,
+        beam_length_m: float | None = None,
+        beam_width_m: float | None = None,
+        beam_thickness_m: float | None = None,
+        beam_density_kg_per_m3: float | None = None,
+        beam_youngs_modulus_Pa: float | None = None,
+        beam_shear_modulus_Pa: float | None = None,
+        beam_flexural_rigidity_N_m2: float | None = None,
+        beam_linear_density_kg_per_m: float | None = None,
+        hub_inertia_kg_m2: float | None = None,
+        hub_viscous_friction_N_m_s_per_rad: float | None = None,
+        payload_mass_kg: float | None = None,
+        payload_inertia_kg_m2: float | None = None,
+        damping_kelvin_voigt_s: float | None = None,
+    ) -> Arm: ...
+    def with_effect(self, effect: str, sensor: str = '', **parameters: float) -> Arm: ...
     def without_effect(self, effect: str) -> Arm: ...
     def with_uncertainties(self, relative: Mapping[str, float]) -> Arm: ...
     @property
@@ -170,6 +207,7 @@ class Poles:
     def summary(self) -> SolveSummary: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class DampedPoles:
     @property
@@ -184,6 +222,7 @@ class DampedPoles:
     def summary(self) -> SolveSummary: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class RejectedZero:
     @property
@@ -212,6 +251,7 @@ class Zeros:
     def summary(self) -> SolveSummary: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class Modes:
     @property
@@ -238,6 +278,7 @@ class Modes:
     def displacement_m(self) -> _Floats: ...
     def __len__(self) -> int: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class FrequencyResponse:
     @property
@@ -251,6 +292,7 @@ class FrequencyResponse:
     def __getitem__(self, sensor: str) -> _Complexes: ...
     def to_xarray(self) -> Any: ...
     def __len__(self) -> int: ...
+    def to_pandas(self) -> Any: ...
 
 class StateSpace:
     @property
@@ -266,14 +308,18 @@ class StateSpace:
     @property
     def output_delay_s(self) -> _Floats: ...
     @property
+    def truncation_errors(self) -> list[float]: ...
+    @property
     def states(self) -> list[str]: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
     @property
     def units(self) -> tuple[str, ...]: ...
     def frequency_response(self, frequency_Hz: ArrayLike) -> FrequencyResponse: ...
-    def to_scipy(self, *, ignore_delays: bool = ...) -> Any: ...
-    def to_control(self, *, ignore_delays: bool = ...) -> Any: ...
+    def poles(self) -> _Complexes: ...
+    def zeros(self, sensor: str | None = None) -> _Complexes: ...
+    def to_scipy(self, *, ignore_delays: bool = False) -> Any: ...
+    def to_control(self, *, ignore_delays: bool = False) -> Any: ...
 
 class Formulation:
     @property
@@ -284,11 +330,11 @@ class Formulation:
     def settings(self) -> str: ...
     @property
     def degrees_of_freedom(self) -> int: ...
-    def poles(self, count: int = ...) -> Poles: ...
-    def damped_poles(self, count: int = ...) -> DampedPoles: ...
-    def zeros(self, sensor: str, count: int = ...) -> Zeros: ...
+    def poles(self, count: int = 5) -> Poles: ...
+    def damped_poles(self, count: int = 5) -> DampedPoles: ...
+    def zeros(self, sensor: str, count: int = 5) -> Zeros: ...
     def modes(
-        self, count: int = ..., sensors: _Sensors = ..., stations_m: ArrayLike = ...
+        self, count: int = 5, sensors: _Sensors = (), stations_m: ArrayLike = ()
     ) -> Modes: ...
     @overload
     def transfer_function(  # type: ignore[misc]
@@ -298,16 +344,16 @@ class Formulation:
     def transfer_function(self, sensor: str, s_rad_per_s: ArrayLike) -> _Complexes: ...
     def frequency_response(
         self,
-        sensors: _Sensors | None = ...,
-        frequency_Hz: ArrayLike = ...,
+        sensors: _Sensors | None = None,
+        frequency_Hz: ArrayLike = (),
         *,
-        from_Hz: float | None = ...,
-        to_Hz: float | None = ...,
-        points: int = ...,
-        modes: int = ...,
+        from_Hz: float | None = None,
+        to_Hz: float | None = None,
+        points: int = 400,
+        modes: int = 5,
     ) -> FrequencyResponse: ...
     def state_space(
-        self, sensors: _Sensors | None = ..., *, modes: int = ..., static_correction: bool = ...
+        self, sensors: _Sensors | None = None, *, modes: int | None = None, static_correction: bool = True
     ) -> StateSpace: ...
 
 class ExactTransferFunction(Formulation):
@@ -318,9 +364,9 @@ class FiniteElements(Formulation):
         self,
         arm: Arm,
         *,
-        elements: int | None = ...,
-        degree: int | None = ...,
-        roots: int = ...,
+        elements: int | None = None,
+        degree: int | None = None,
+        roots: int = 10,
     ) -> None: ...
 
 class AssumedModes(Formulation):
@@ -328,9 +374,9 @@ class AssumedModes(Formulation):
         self,
         arm: Arm,
         *,
-        functions: int | None = ...,
-        basis: str | None = ...,
-        roots: int = ...,
+        functions: int | None = None,
+        basis: str | None = None,
+        roots: int = 10,
     ) -> None: ...
 
 class RigidHub(Formulation):
@@ -339,14 +385,14 @@ class RigidHub(Formulation):
 class Controller:
     @staticmethod
     def pid(
-        kp: float = ...,
-        kd: float = ...,
-        ki: float = ...,
+        kp: float = 0.0,
+        kd: float = 0.0,
+        ki: float = 0.0,
         *,
-        sensor: str = ...,
-        derivative: str = ...,
-        limit_N_m: float | None = ...,
-        sample_time_s: float | None = ...,
+        sensor: str = 'hub_angle',
+        derivative: str = 'error',
+        limit_N_m: float | None = None,
+        sample_time_s: float | None = None,
     ) -> Controller: ...
     @staticmethod
     def state_space(
@@ -355,9 +401,9 @@ class Controller:
         C: ArrayLike,
         D: ArrayLike,
         *,
-        sensors: _Sensors = ...,
-        limit_N_m: float | None = ...,
-        sample_time_s: float | None = ...,
+        sensors: _Sensors = 'hub_angle',
+        limit_N_m: float | None = None,
+        sample_time_s: float | None = None,
     ) -> Controller: ...
     @staticmethod
     def read(path: _Path) -> Controller: ...
@@ -406,6 +452,8 @@ class SimulatedRun:
     @property
     def reference(self) -> _Floats | None: ...
     @property
+    def reference_unit(self) -> str: ...
+    @property
     def sensors(self) -> tuple[str, ...]: ...
     @property
     def units(self) -> tuple[str, ...]: ...
@@ -427,6 +475,11 @@ class SimulatedRun:
     def noise_deviation(self) -> list[float]: ...
     @property
     def step_error(self) -> list[float]: ...
+    @property
+    def modes(self) -> int: ...
+    @property
+    def truncation_errors(self) -> list[float]: ...
+    def to_pandas(self) -> Any: ...
 
 class SteppedSineRun:
     @property
@@ -435,7 +488,10 @@ class SteppedSineRun:
     def frequency_Hz(self) -> _Floats: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
+    @property
+    def units(self) -> tuple[str, ...]: ...
     def __getitem__(self, sensor: str) -> _Complexes: ...
+    def to_pandas(self) -> Any: ...
 
 class SimulatedExperiment:
     @property
@@ -445,19 +501,50 @@ class SimulatedExperiment:
     @property
     def model(self) -> str: ...
     @property
+    def truncation_errors(self) -> list[float]: ...
+    @property
     def modes(self) -> int: ...
     def write(
-        self, folder: _Path, *, name: str = ..., hide_effects: Sequence[str] = ...
+        self, folder: _Path, *, name: str = '', hide_effects: Sequence[str] = []
     ) -> None: ...
     def to_json(self) -> str: ...
 
 class TimeRun:
+    def __init__(
+        self,
+        data: Any = None,
+        *,
+        id: str = 'run',
+        sample_time_s: float | None = None,
+        purpose: str = '',
+        payload_mass_kg: float | None = None,
+        payload_inertia_kg_m2: float | None = None,
+        torque_hold: str = 'zero',
+        initial: str = 'rest',
+        controller: Controller | None = None,
+        time_s: ArrayLike | None = None,
+        torque_N_m: ArrayLike | None = None,
+        hub_angle_rad: ArrayLike | None = None,
+        hub_velocity_rad_per_s: ArrayLike | None = None,
+        tip_acceleration_m_per_s2: ArrayLike | None = None,
+        tip_displacement_m: ArrayLike | None = None,
+        tip_deflection_m: ArrayLike | None = None,
+        **columns: ArrayLike | None,
+    ) -> None: ...
+    @property
+    def torque_hold(self) -> str: ...
+    @property
+    def initial(self) -> str: ...
+    @property
+    def controller(self) -> Controller | None: ...
     @property
     def time_s(self) -> _Floats: ...
     @property
     def torque_N_m(self) -> _Floats: ...
     @property
     def reference(self) -> _Floats | None: ...
+    @property
+    def reference_unit(self) -> str: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
     @property
@@ -471,8 +558,25 @@ class TimeRun:
     def purpose(self) -> str | None: ...
     @property
     def payload_mass_kg(self) -> float | None: ...
+    def to_pandas(self) -> Any: ...
 
 class FrequencyRun:
+    def __init__(
+        self,
+        data: Any = None,
+        *,
+        id: str = 'run',
+        purpose: str = '',
+        payload_mass_kg: float | None = None,
+        payload_inertia_kg_m2: float | None = None,
+        frequency_Hz: ArrayLike | None = None,
+        hub_angle_rad_per_N_m: ArrayLike | None = None,
+        hub_velocity_rad_per_s_per_N_m: ArrayLike | None = None,
+        tip_acceleration_m_per_s2_per_N_m: ArrayLike | None = None,
+        tip_displacement_m_per_N_m: ArrayLike | None = None,
+        tip_deflection_m_per_N_m: ArrayLike | None = None,
+        **columns: ArrayLike | None,
+    ) -> None: ...
     @property
     def id(self) -> str: ...
     @property
@@ -481,11 +585,25 @@ class FrequencyRun:
     def payload_mass_kg(self) -> float | None: ...
     @property
     def sensors(self) -> tuple[str, ...]: ...
+    @property
+    def units(self) -> tuple[str, ...]: ...
     def __getitem__(self, sensor: str) -> _Complexes: ...
     def frequency_Hz(self, sensor: str) -> _Floats: ...
     def coherence(self, sensor: str) -> _Floats: ...
+    def to_pandas(self) -> Any: ...
 
 class ModalEntry:
+    def __init__(
+        self,
+        feature: str,
+        frequency_Hz: float | None = None,
+        *,
+        sensor: str | None = None,
+        order: int | None = None,
+        frequency_std_Hz: float | None = None,
+        damping_ratio: float | None = None,
+        damping_ratio_std: float | None = None,
+    ) -> None: ...
     @property
     def feature(self) -> str: ...
     @property
@@ -502,6 +620,15 @@ class ModalEntry:
     def damping_ratio_std(self) -> float | None: ...
 
 class ModalRun:
+    def __init__(
+        self,
+        entries: Any,
+        *,
+        id: str = 'run',
+        purpose: str = '',
+        payload_mass_kg: float | None = None,
+        payload_inertia_kg_m2: float | None = None,
+    ) -> None: ...
     @property
     def id(self) -> str: ...
     @property
@@ -510,14 +637,26 @@ class ModalRun:
     def payload_mass_kg(self) -> float | None: ...
     @property
     def entries(self) -> list[ModalEntry]: ...
+    def to_pandas(self) -> Any: ...
 
 class Measurement:
+    def __init__(
+        self,
+        arm: Arm | _Path | None,
+        runs: _Run | Sequence[_Run],
+        name: str = '',
+    ) -> None: ...
     @property
     def name(self) -> str: ...
     @property
+    def arm(self) -> Arm | None: ...
+    @property
+    def notes(self) -> list[str]: ...
+    def write(self, folder: _Path) -> None: ...
+    @property
     def arm_file(self) -> str: ...
     @property
-    def runs(self) -> list[TimeRun | FrequencyRun | ModalRun]: ...
+    def runs(self) -> list[_Run]: ...
 
 class IdentifiedRoot:
     @property
@@ -534,6 +673,8 @@ class IdentifiedRoot:
     def hub_held(self) -> bool: ...
     @property
     def order(self) -> int | None: ...
+    @property
+    def alias_of_Hz(self) -> float | None: ...
     @property
     def frequency_Hz(self) -> float | None: ...
     @property
@@ -553,19 +694,24 @@ class Identification:
     @property
     def name(self) -> str: ...
     @property
-    def arm(self) -> Arm: ...
+    def arm(self) -> Arm | None: ...
     def roots(
-        self, *, feature: str | None = ..., method: str | None = ..., sensor: str | None = ...
+        self, *, feature: str | None = None, method: str | None = None, sensor: str | None = None
     ) -> list[IdentifiedRoot]: ...
     @property
     def poles(self) -> list[IdentifiedRoot]: ...
     @property
     def zeros(self) -> list[IdentifiedRoot]: ...
     @property
+    def doubts(self) -> list[str]: ...
+    @property
+    def differences(self) -> list[str]: ...
+    @property
     def notes(self) -> list[str]: ...
     def to_json(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 class Detection:
     @property
@@ -588,6 +734,7 @@ class Plan:
     def improved_plan(self) -> str: ...
     def to_json(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
+    def to_pandas(self) -> Any: ...
 
 class ParameterEstimate:
     @property
@@ -699,103 +846,137 @@ class Diagnosis:
     @property
     def overlays(self) -> list[Overlay]: ...
     def figures(self) -> dict[str, str]: ...
-    def to_json(self, extended_arm: str = ...) -> str: ...
+    def to_json(self, extended_arm: str = '') -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
     def write_json(self, path: _Path) -> None: ...
     def _repr_html_(self) -> str: ...
+    def to_pandas(self) -> Any: ...
 
 def arm_numbers() -> list[ArmNumber]: ...
 def effects() -> list[EffectDefinition]: ...
 def read_arm(path: _Path) -> Arm: ...
+def import_log(
+    path: _Path | Sequence[_Path],
+    *,
+    arm: Arm | _Path | None = None,
+    name: str = '',
+    column: _Texts | Mapping[str, str] = (),
+    compute: _Texts = (),
+    torque: str = '',
+    time_unit: str = '',
+    reference: str = '',
+    own_rate: _Texts = (),
+    leave_out: _Texts = (),
+    controller: str = '',
+    join: bool = False,
+    join_grid: str = 'same',
+    kind: str = '',
+    sample_time_s: float | None = None,
+    raw_columns: int | None = None,
+    id: str = '',
+    rows: str = '',
+    times: str = '',
+    runs: _Texts = (),
+    decimate: int | None = None,
+    clock: str = 'stamped',
+    fill_gaps: int = 3,
+    purpose: str = '',
+    validation: _Texts = (),
+    hold: str = '',
+    initial: str = '',
+    payload_mass_kg: float | None = None,
+    payload_inertia_kg_m2: float | None = None,
+    progress: _Progress = None,
+) -> Measurement: ...
 def read_measurement(path: _Path) -> Measurement: ...
 def sampled_torque(
-    excitation: str, *, duration_s: float = ..., sample_time_s: float = ...
+    excitation: str, *, duration_s: float = 4.0, sample_time_s: float = 0.0005
 ) -> _Floats: ...
 def simulate(
     arm: Arm,
-    excitation: str | ArrayLike | None = ...,
+    excitation: str | ArrayLike | None = None,
     *,
-    reference: str | ArrayLike | None = ...,
-    controller: str | Controller | None = ...,
-    progress: _Progress = ...,
-    sensors: _Sensors | None = ...,
-    duration_s: float | None = ...,
-    sample_time_s: float | None = ...,
-    seed: int = ...,
-    noise: float = ...,
-    noise_of: Mapping[str, float] = ...,
-    quantisation: Mapping[str, float] = ...,
-    formulation: str = ...,
-    elements: int | None = ...,
-    degree: int | None = ...,
-    basis: str | None = ...,
-    functions: int | None = ...,
-    modes: int = ...,
-    static_correction: bool = ...,
-    hold: str = ...,
-    substeps: int = ...,
-    check_step: bool = ...,
+    reference: str | ArrayLike | None = None,
+    controller: str | Controller | None = None,
+    progress: _Progress = None,
+    sensors: _Sensors | None = None,
+    duration_s: float | None = None,
+    sample_time_s: float | None = None,
+    seed: int = 1,
+    noise: float = 0.0,
+    noise_of: Mapping[str, float] | None = None,
+    quantisation: Mapping[str, float] | None = None,
+    formulation: str = 'exact_tf',
+    elements: int | None = None,
+    degree: int | None = None,
+    basis: str | None = None,
+    functions: int | None = None,
+    modes: int | None = None,
+    static_correction: bool = False,
+    hold: str = 'zero',
+    substeps: int = 0,
+    check_step: bool = False,
 ) -> SimulatedRun: ...
 def simulate_experiment(
     arm: Arm,
     excitations: Sequence[str],
     *,
-    references: Sequence[str] | None = ...,
-    controller: str | Controller | None = ...,
-    progress: _Progress = ...,
-    sensors: _Sensors | None = ...,
-    duration_s: float | None = ...,
-    sample_time_s: float | None = ...,
-    seed: int = ...,
-    noise: float = ...,
-    noise_of: Mapping[str, float] = ...,
-    quantisation: Mapping[str, float] = ...,
-    formulation: str = ...,
-    elements: int | None = ...,
-    degree: int | None = ...,
-    basis: str | None = ...,
-    functions: int | None = ...,
-    modes: int = ...,
-    static_correction: bool = ...,
-    hold: str = ...,
-    substeps: int = ...,
-    check_step: bool = ...,
+    references: Sequence[str] | None = None,
+    controller: str | Controller | None = None,
+    progress: _Progress = None,
+    sensors: _Sensors | None = None,
+    duration_s: float | None = None,
+    sample_time_s: float | None = None,
+    seed: int = 1,
+    noise: float = 0.0,
+    noise_of: Mapping[str, float] | None = None,
+    quantisation: Mapping[str, float] | None = None,
+    formulation: str = 'exact_tf',
+    elements: int | None = None,
+    degree: int | None = None,
+    basis: str | None = None,
+    functions: int | None = None,
+    modes: int | None = None,
+    static_correction: bool = False,
+    hold: str = 'zero',
+    substeps: int = 0,
+    check_step: bool = False,
 ) -> SimulatedExperiment: ...
 def identify(
-    path: _Path,
+    measurement: _Path | Measurement,
     *,
-    runs: Sequence[str] = ...,
-    sensors: Sequence[str] = ...,
-    window: str = ...,
-    resolution_Hz: float | None = ...,
-    overlap_percent: float | None = ...,
-    detrend: str = ...,
-    peaks: str = ...,
-    input: str = ...,
-    from_Hz: float | None = ...,
-    to_Hz: float | None = ...,
-    modes: int | None = ...,
-    highest_order: int = ...,
-    total_inertia_kg_m2: float | None = ...,
-    fit: bool = ...,
-    progress: _Progress = ...,
+    runs: Sequence[str] = [],
+    sensors: Sequence[str] = [],
+    window: str = '',
+    resolution_Hz: float | None = None,
+    overlap_percent: float | None = None,
+    detrend: str = '',
+    peaks: str = 'between',
+    input: str = '',
+    from_Hz: float | None = None,
+    to_Hz: float | None = None,
+    modes: int | None = None,
+    highest_order: int = 32,
+    total_inertia_kg_m2: float | None = None,
+    fit: bool = True,
+    progress: _Progress = None,
 ) -> Identification: ...
 def plan(
     arm: Arm | _Path,
     plan_file: _Path,
     *,
-    effects: Sequence[str] = ...,
-    refit: Sequence[str] = ...,
-    progress: _Progress = ...,
+    effects: Sequence[str] = [],
+    refit: Sequence[str] = [],
+    progress: _Progress = None,
 ) -> Plan: ...
 def diagnose(
-    path: _Path,
+    measurement: _Path | Measurement,
     *,
-    effects: Sequence[str] = ...,
-    exclude: Sequence[str] = ...,
-    accept: Sequence[str] = ...,
-    time_limit_s: float | None = ...,
-    max_causes: int = ...,
-    predictor: str = ...,
-    progress: _Progress = ...,
+    effects: Sequence[str] = [],
+    exclude: Sequence[str] = [],
+    accept: Sequence[str] = [],
+    time_limit_s: float | None = None,
+    max_causes: int = 4,
+    predictor: str = 'auto',
+    progress: _Progress = None,
 ) -> Diagnosis: ...

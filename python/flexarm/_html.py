@@ -2,6 +2,19 @@
 
 from html import escape
 
+from ._flexarm import (
+    Arm,
+    DampedPoles,
+    Diagnosis,
+    Identification,
+    InputError,
+    Modes,
+    Poles,
+    Zeros,
+    arm_numbers,
+)
+from ._methods import method
+
 _STYLE = "border-collapse:collapse"
 
 
@@ -30,24 +43,24 @@ def _effect_rows(name, effect):
     return rows or [(name, "", "")]
 
 
-def arm_table(arm):
-    from . import arm_numbers
-
+@method("_repr_html_", Arm)
+def arm_html(self):
     rows = []
     for number in arm_numbers():
-        value = getattr(arm, number.attribute)
+        value = getattr(self, number.attribute)
         if value is not None and (value != 0.0 or number.required):
             rows.append((f"{number.key} ({number.symbol})", value, number.unit))
-    rows.append(("total inertia (I_T)", arm.total_inertia_kg_m2, "kg m^2"))
-    for name, effect in arm.effects.items():
+    rows.append(("total inertia (I_T)", self.total_inertia_kg_m2, "kg m^2"))
+    for name, effect in self.effects.items():
         rows += _effect_rows(name, effect)
-    return _table(arm.name or "arm", ("number", "value", "unit"), rows)
+    return _table(self.name or "arm", ("number", "value", "unit"), rows)
 
 
-def poles_table(poles):
+@method("_repr_html_", Poles)
+def poles_html(self):
     rows = [
         (float(i + 1), float(f), float(w))
-        for i, (f, w) in enumerate(zip(poles.frequency_Hz, poles.omega_rad_per_s))
+        for i, (f, w) in enumerate(zip(self.frequency_Hz, self.omega_rad_per_s))
     ]
     return _table("Undamped poles", ("mode", "frequency [Hz]", "omega [rad/s]"), rows)
 
@@ -56,32 +69,35 @@ def _complex(s):
     return f"{s.real:.6g} {'-' if s.imag < 0 else '+'} {abs(s.imag):.6g}i"
 
 
-def damped_poles_table(poles):
+@method("_repr_html_", DampedPoles)
+def damped_poles_html(self):
     rows = [
         (float(i + 1), float(f), float(zeta), _complex(pair[0]), _complex(pair[1]))
         for i, (f, zeta, pair) in enumerate(
-            zip(poles.frequency_Hz, poles.damping_ratio, poles.s_rad_per_s)
+            zip(self.frequency_Hz, self.damping_ratio, self.s_rad_per_s)
         )
     ]
     header = ("mode", "frequency [Hz]", "damping ratio", "s [rad/s]", "s [rad/s]")
     return _table("Damped poles", header, rows)
 
 
-def zeros_table(zeros):
+@method("_repr_html_", Zeros)
+def zeros_html(self):
     rows = [
         (float(i + 1), float(f), _complex(s), "yes" if right else "no")
         for i, (f, s, right) in enumerate(
-            zip(zeros.frequency_Hz, zeros.s_rad_per_s, zeros.is_non_minimum_phase)
+            zip(self.frequency_Hz, self.s_rad_per_s, self.is_non_minimum_phase)
         )
     ]
     header = ("no.", "|s|/2 pi [Hz]", "s [rad/s]", "non-minimum phase")
-    return _table(f"Undamped zeros of torque to {zeros.sensor}", header, rows)
+    return _table(f"Undamped zeros of torque to {self.sensor}", header, rows)
 
 
-def modes_table(modes):
+@method("_repr_html_", Modes)
+def modes_html(self):
     rows = [
         (float(i), *(float(value) for value in row))
-        for i, row in enumerate(zip(modes.frequency_Hz, modes.hub_slope, modes.damping_ratio))
+        for i, row in enumerate(zip(self.frequency_Hz, self.hub_slope, self.damping_ratio))
     ]
     header = ("mode", "frequency [Hz]", "hub slope", "damping ratio")
     return _table("Modes; mode 0 is the rigid-body mode", header, rows)
@@ -91,7 +107,8 @@ def _with_error(value, error):
     return "" if value is None else f"{value:.6g}" + ("" if error is None else f" ± {error:.2g}")
 
 
-def identification_table(identification):
+@method("_repr_html_", Identification)
+def identification_html(self):
     rows = [
         (
             f"{root.feature} {root.order or ''} {root.sensor or ''}".strip(),
@@ -99,10 +116,10 @@ def identification_table(identification):
             _with_error(root.analytical_Hz, None),
             _with_error(root.damping_ratio, root.damping_ratio_std),
         )
-        for root in [*identification.poles, *identification.zeros]
+        for root in [*self.poles, *self.zeros]
     ]
     header = ("root", "frequency [Hz]", "of the arm file [Hz]", "damping ratio")
-    return _table(identification.name, header, rows)
+    return _table(self.name, header, rows)
 
 
 def _cause_rows(cause):
@@ -117,8 +134,6 @@ def _cause_rows(cause):
 
 def _overlay_figure(diagnosis):
     """The first overlay as SVG; where gnuplot is missing, why there is none."""
-    from . import InputError
-
     try:
         figures = diagnosis.figures()
     except InputError as error:
@@ -129,9 +144,10 @@ def _overlay_figure(diagnosis):
     return ""
 
 
-def diagnosis_summary(diagnosis):
-    rows = [row for cause in diagnosis.causes for row in _cause_rows(cause)]
-    text = f"<p>{escape(diagnosis.verdict_text)}</p>"
+@method("_repr_html_", Diagnosis)
+def diagnosis_html(self):
+    rows = [row for cause in self.causes for row in _cause_rows(cause)]
+    text = f"<p>{escape(self.verdict_text)}</p>"
     if rows:
         text += _table("Causes", ("effect", "parameter", "value", "probability"), rows)
-    return text + _overlay_figure(diagnosis)
+    return text + _overlay_figure(self)

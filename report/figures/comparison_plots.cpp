@@ -7,6 +7,7 @@
 #include "report/figures/mode_shape_figure.hpp"
 #include "report/figures/overlay_style.hpp"
 #include "report/figures/pole_zero_figure.hpp"
+#include "report/figures/run_overlay_figure.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/tables/response_tables.hpp"
 #include "report/words.hpp"
@@ -212,9 +213,12 @@ std::vector<NamedFigure> comparison_plots(const compare::Comparison& comparison,
     plots.push_back(pole_zero_map(comparison, i, measured.rows));
     plots.push_back(bode_diagram(comparison, comparison.responses[i]));
   }
-  plots.push_back(mode_shapes(comparison));
+  if (!comparison.modes.empty()) plots.push_back(mode_shapes(comparison));
   for (const auto& response : measured.responses) {
     if (has_measured_values(response)) plots.push_back(measured_bode(response));
+  }
+  for (const auto& run : measured.runs) {
+    plots.push_back({"overlay-" + run.run, run_overlay_figure(run)});
   }
   for (std::size_t i = 0; i < measured.shapes.size(); ++i) {
     plots.push_back(

@@ -1,8 +1,11 @@
 #include "report/json/comparison_json.hpp"
 
+#include "compare/measured_verdict.hpp"
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
 #include "report/tables/zero_kind.hpp"
+
+#include <algorithm>
 
 namespace flexarm::report {
 
@@ -140,6 +143,7 @@ Json responses_json(const compare::Comparison& comparison) {
 }
 
 Json finding_json(const compare::Finding& finding) {
+  if (finding.quantity.empty()) return nullptr;
   return {{"quantity", finding.quantity},
           {"first", finding.first},
           {"second", finding.second},
@@ -156,6 +160,7 @@ Json measured_json(const std::vector<compare::MeasuredRow>& rows,
                         {"order", row.order ? Json(*row.order) : Json(nullptr)},
                         {"measured_Hz", optional_json(row.measured.frequency_Hz)},
                         {"model_Hz", optional_json(row.model_frequency_Hz)},
+                        {"model_undamped_Hz", optional_json(row.undamped_Hz)},
                         {"error_percent", row.error_percent},
                         {"measured_std_Hz", optional_json(row.measured.frequency_std_Hz)},
                         {"model_std_Hz", optional_json(row.model_std_Hz)},
@@ -233,6 +238,54 @@ Json mac_json(const std::vector<compare::ShapeCorrelation>& shapes) {
   return all;
 }
 
+Json measured_runs_json(const std::vector<compare::MeasuredTimeRun>& runs) {
+  Json all = Json::array();
+  for (const auto& run : runs) {
+    Json entry = {{"run", run.run},
+                  {"payload_mass_kg", run.payload.mass_kg},
+                  {"closed_loop", run.closed_loop},
+                  {"free_start", run.free_start},
+                  {"time_s", run.time_s},
+                  {"channels", Json::array()}};
+    for (const auto& signal : run.signals) {
+      entry["channels"].push_back({{"channel", signal.sensor},
+                                   {"unit", signal.unit},
+                                   {"fit_percent", signal.fit_percent()},
+                                   {"nrmse_percent", signal.nrmse_percent},
+                                   {"measured", signal.measured},
+                                   {"simulated", signal.simulated},
+                                   {"left_out", signal.left_out}});
+    }
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+const char* word_of(compare::MeasuredAgreement agreement) {
+  return agreement == compare::MeasuredAgreement::agrees ? "agrees" : "differs";
+}
+
+Json measured_verdict_json(const compare::MeasuredVerdict& verdict) {
+  if (verdict.agreement == compare::MeasuredAgreement::none) return nullptr;
+  const auto by_std = [&](double value) {
+    return verdict.judged_by_std > 0 ? Json(value) : Json(nullptr);
+  };
+  const auto name = [](const compare::LargestDifference& largest) {
+    return largest.of.empty() ? Json(nullptr) : Json(largest.of);
+  };
+  const bool is_by_percent = verdict.judged_by_percent > 0;
+  return {
+      {"verdict", word_of(verdict.agreement)},
+      {"chi_square", by_std(verdict.chi_square)},
+      {"degrees_of_freedom", verdict.judged_by_std},
+      {"p_value", by_std(verdict.p_value)},
+      {"largest_deviation_std", by_std(verdict.in_std.size)},
+      {"largest_deviation_of", name(verdict.in_std)},
+      {"largest_difference_percent", is_by_percent ? Json(verdict.in_percent.size) : Json(nullptr)},
+      {"largest_difference_of", name(verdict.in_percent)},
+      {"tolerance_percent", verdict.tolerance_percent}};
+}
+
 Json compared_json(const ComparedArm& compared) {
   const auto& comparison = compared.comparison;
   Json findings = Json::array();
@@ -240,6 +293,7 @@ Json compared_json(const ComparedArm& compared) {
   const std::string& alone = comparison.verdict.alone;
   return {
       {"verdict", comparison.verdict.agree ? "agree" : "disagree"},
+      {"measured_verdict", measured_verdict_json(compare::judge(compared.measured))},
       {"worst", finding_json(comparison.verdict.worst)},
       {"alone", alone.empty() ? Json() : Json(alone)},
       {"arm", arm_json(comparison.arm)},
@@ -252,6 +306,8 @@ Json compared_json(const ComparedArm& compared) {
       {"responses", responses_json(comparison)},
       {"measured", measured_json(compared.measured.rows, comparison.subjects)},
       {"measured_responses", measured_responses_json(compared.measured.responses)},
+      {"measured_runs", measured_runs_json(compared.measured.runs)},
+      {"runs_left_out", compared.measured.runs_left_out},
       {"mac", mac_json(compared.measured.shapes)},
       {"findings", findings},
   };
@@ -260,14 +316,20 @@ Json compared_json(const ComparedArm& compared) {
 }  // namespace
 
 std::string comparison_json(const std::vector<ComparedArm>& arms) {
+  using enum compare::MeasuredAgreement;
   Json comparisons = Json::array();
   bool agree = true;
+  compare::MeasuredAgreement measured = none;
   for (const auto& compared : arms) {
     comparisons.push_back(compared_json(compared));
     agree = agree && compared.comparison.verdict.agree;
+    measured = std::max(measured, compare::judge(compared.measured).agreement);
   }
-  return json_document("flexarm.compare/1",
-                       {{"verdict", agree ? "agree" : "disagree"}, {"comparisons", comparisons}});
+  return json_document(
+      "flexarm.compare/1",
+      {{"verdict", agree ? "agree" : "disagree"},
+       {"measured_verdict", measured == none ? Json(nullptr) : Json(word_of(measured))},
+       {"comparisons", comparisons}});
 }
 
 }  // namespace flexarm::report

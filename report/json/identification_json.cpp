@@ -3,11 +3,14 @@
 #include "report/json/arm_json.hpp"
 #include "report/json/json_document.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/method_differences.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace flexarm::report {
 
@@ -132,6 +135,7 @@ Json run_json(const measured::RunIdentification& run) {
           {"refusal", text(run.refusal)},
           {"findings", findings_json(run.findings)},
           {"left_out", left_out},
+          {"decay_begins_s", number_json(run.decay_begins_s)},
           {"spectra", run.estimate ? spectra_json(*run.estimate) : Json(nullptr)},
           {"circles", circles_json(run.circles)},
           {"distortion", distortion_json(run)}};
@@ -165,15 +169,18 @@ Json reading_json(const measured::ModalReading& reading,
                   const std::vector<compare::IdentifiedRoot>& identified, std::size_t condition) {
   Json roots = Json::array();
   for (const auto& root : identified) {
-    roots.push_back({{"feature", to_string(root.measured.feature)},
-                     {"order", root.order ? Json(*root.order) : Json(nullptr)},
-                     {"frequency_Hz", number_json(root.measured.frequency_Hz)},
-                     {"frequency_std_Hz", number_json(root.measured.frequency_std_Hz)},
-                     {"damping_ratio", number_json(root.measured.damping_ratio)},
-                     {"damping_ratio_std", number_json(root.measured.damping_ratio_std)},
-                     {"analytical_Hz", number_json(root.analytical_Hz)},
-                     {"analytical_damping_ratio", number_json(root.analytical_damping_ratio)},
-                     {"error_percent", root.error_percent()}});
+    roots.push_back(
+        {{"feature", to_string(root.measured.feature)},
+         {"order", root.order ? Json(*root.order) : Json(nullptr)},
+         {"frequency_Hz", number_json(root.measured.frequency_Hz)},
+         {"frequency_std_Hz", number_json(root.measured.frequency_std_Hz)},
+         {"damping_ratio", number_json(root.measured.damping_ratio)},
+         {"damping_ratio_std", number_json(root.measured.damping_ratio_std)},
+         {"alias_of_Hz", number_json(root.alias_of_Hz)},
+         {"alias_of_order", root.alias_of_order ? Json(*root.alias_of_order) : Json(nullptr)},
+         {"analytical_Hz", number_json(root.analytical_Hz)},
+         {"analytical_damping_ratio", number_json(root.analytical_damping_ratio)},
+         {"error_percent", root.error_percent()}});
   }
   return {{"method", to_string(reading.method)},
           {"runs", reading.runs},
@@ -265,6 +272,8 @@ Json fit_json(const measured::RunsFit& fitted, const measured::Identification& i
           {"hub_held", fitted.hub_held},
           {"refusal", text(fitted.refusal)},
           {"converged", fit.converged},
+          {"unphysical", text(fitted.unphysical)},
+          {"free_decay", fit.free_decay},
           {"from_Hz", fit.band.from_Hz},
           {"to_Hz", fit.band.to_Hz},
           {"order_reason", fit.order_reason},
@@ -277,6 +286,21 @@ Json fit_json(const measured::RunsFit& fitted, const measured::Identification& i
           {"gains", gains_json(fitted)},
           {"gains_refusal", text(fitted.gains_refusal)},
           {"stabilisation", chart_json(fit.chart)}};
+}
+
+/// The first of these that is so.
+std::string_view state_of(const measured::Identification& identification) {
+  const auto& fits = identification.fits;
+  const auto has = [](const auto& is) {
+    return [is](const measured::RunsFit& fit) { return fit.refusal.empty() && is(fit); };
+  };
+  if (std::ranges::any_of(fits, has([](const auto& fit) { return !fit.fit.converged; }))) {
+    return "not converged";
+  }
+  if (std::ranges::any_of(fits, has([](const auto& fit) { return !fit.unphysical.empty(); }))) {
+    return "unphysical";
+  }
+  return identification.readings.empty() ? "nothing identified" : "identified";
 }
 
 }  // namespace
@@ -299,13 +323,20 @@ Json identification_json(const measured::Identification& identification,
       fits.push_back(fit_json(identification.fits[f], identification, c));
     }
   }
-  return {{"runs", runs}, {"conditions", expected}, {"readings", readings}, {"fits", fits}};
+  return {{"state", state_of(identification)},
+          {"doubts", doubts(identification)},
+          {"differences", all_method_differences(identification, conditions)},
+          {"runs", runs},
+          {"conditions", expected},
+          {"readings", readings},
+          {"fits", fits}};
 }
 
-std::string identification_document(const std::string& measurement, const arm::Arm& arm,
+std::string identification_document(const std::string& measurement,
+                                    const std::optional<arm::Arm>& arm,
                                     const measured::Identification& identification,
                                     const std::vector<compare::IdentifiedCondition>& conditions) {
-  Json document = {{"measurement", measurement}, {"arm", arm_json(arm)}};
+  Json document = {{"measurement", measurement}, {"arm", arm ? arm_json(*arm) : Json(nullptr)}};
   document.update(identification_json(identification, conditions));
   return json_document("flexarm.identify/1", document);
 }

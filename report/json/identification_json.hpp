@@ -17,7 +17,8 @@ nlohmann::ordered_json identification_json(
     const std::vector<compare::IdentifiedCondition>& conditions);
 
 /// The document of `identify --json` (docs/json.md): of a measurement by its name, on an arm.
-std::string identification_document(const std::string& measurement, const arm::Arm& arm,
+std::string identification_document(const std::string& measurement,
+                                    const std::optional<arm::Arm>& arm,
                                     const measured::Identification& identification,
                                     const std::vector<compare::IdentifiedCondition>& conditions);
 

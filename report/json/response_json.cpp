@@ -1,6 +1,7 @@
 #include "report/json/response_json.hpp"
 
 #include "report/json/arm_json.hpp"
+#include "report/tables/truncation_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -101,13 +102,16 @@ Json response_json(const response::ResponseStudy& study) {
         {"median_error", errors[k].median},
         {"response", values_json(*study.state_space_response, k)}};
   }
-  return {{"left_out", study.left_out},
-          {"chain", chain_json(study.chain)},
-          {"poles", poles_json(study)},
-          {"states", study.state_space ? Json(study.state_space->states) : Json::array()},
-          {"static_correction", study.residual_mode},
-          {"frequency_Hz", study.response.frequency_Hz},
-          {"sensors", std::move(sensors)}};
+  return {
+      {"left_out", study.left_out},
+      {"chain", chain_json(study.chain)},
+      {"poles", poles_json(study)},
+      {"states", study.state_space ? Json(study.state_space->states) : Json::array()},
+      {"static_correction", study.residual_mode},
+      {"truncation", study.truncation ? truncation_json(*study.truncation, study.response.sensors)
+                                      : Json(nullptr)},
+      {"frequency_Hz", study.response.frequency_Hz},
+      {"sensors", std::move(sensors)}};
 }
 
 }  // namespace flexarm::report

@@ -4,6 +4,7 @@
 #include "report/json/json_document.hpp"
 #include "report/tables/simulation_report.hpp"
 #include "report/tables/stepped_sine_report.hpp"
+#include "report/tables/truncation_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,7 @@ std::string simulation_document(const arm::Arm& arm,
                         {"settings", experiment.settings},
                         {"modes", experiment.modes},
                         {"static_correction", options.static_correction},
+                        {"truncation", truncation_json(experiment.truncation, experiment.sensors)},
                         {"torque_hold", hold},
                         {"runs", runs_json(experiment.runs)},
                         {"stepped_runs", stepped_runs_json(experiment.stepped_runs)}});

@@ -1,17 +1,20 @@
 #include "report/page/compare_page.hpp"
 
+#include "compare/measured_verdict.hpp"
 #include "report/page/comparison_blocks.hpp"
 #include "report/page/measured_blocks.hpp"
 #include "report/page/page_table.hpp"
 #include "report/page/page_words.hpp"
 #include "report/page/payload_sweep.hpp"
 #include "report/tables/comparison_tables.hpp"
+#include "report/tables/measured_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -26,7 +29,25 @@ const ComparedArm& worst_of(const std::vector<ComparedArm>& arms) {
   });
 }
 
-Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
+/// Of the arm that the measurement is farthest from.
+compare::MeasuredVerdict worst_measured(const std::vector<ComparedArm>& arms) {
+  compare::MeasuredVerdict worst;
+  const auto order = [](const compare::MeasuredVerdict& verdict) {
+    return std::tuple(verdict.agreement, verdict.in_std.size, verdict.in_percent.size);
+  };
+  for (const ComparedArm& arm : arms) {
+    const auto verdict = compare::judge(arm.measured);
+    if (order(verdict) > order(worst)) worst = verdict;
+  }
+  return worst;
+}
+
+/// "agrees with exact_tf ..." of "Measurement: agrees with exact_tf ...".
+std::string behind_colon(const std::string& line) {
+  return line.substr(line.find(": ") + 2);
+}
+
+Verdict formulations_verdict(const std::vector<ComparedArm>& arms) {
   const auto agreeing = std::ranges::count_if(
       arms, [](const ComparedArm& arm) { return arm.comparison.verdict.agree; });
   const bool agree = agreeing == std::ssize(arms);
@@ -38,6 +59,22 @@ Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
   }
   return {agree ? Status::good : Status::bad,
           agree ? "formulations agree" : "formulations disagree", std::move(sentence)};
+}
+
+/// Of a measurement before that of the formulations.
+Verdict comparison_verdict(const std::vector<ComparedArm>& arms) {
+  const Verdict formulations = formulations_verdict(arms);
+  const auto measured = worst_measured(arms);
+  if (measured.agreement == compare::MeasuredAgreement::none) return formulations;
+  const bool agrees = measured.agreement == compare::MeasuredAgreement::agrees;
+  const std::string sentence = text_in_words(behind_colon(measured_verdict_line(measured)));
+  return {agrees ? formulations.status : Status::bad,
+          (agrees ? "measurement agrees, " : "measurement differs, ") + formulations.word,
+          "Measurement: " + sentence + " Formulations: " + formulations.sentence};
+}
+
+bool is_measured(const std::vector<ComparedArm>& arms) {
+  return worst_measured(arms).agreement != compare::MeasuredAgreement::none;
 }
 
 std::string largest(const std::vector<ComparedArm>& arms, std::string_view part) {
@@ -61,10 +98,6 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
       facts.push_back({label, std::move(text)});
     }
   };
-  add("largest difference, poles", "pole");
-  add("largest difference, zeros", "zero");
-  add("largest difference, mode shapes", "mode shape");
-  add("largest difference, responses", "response");
   double error = 0.0;
   std::size_t measured = 0;
   for (const ComparedArm& arm : arms) {
@@ -74,10 +107,21 @@ std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
       ++measured;
     }
   }
+  double nrmse = 0.0;
+  for (const ComparedArm& arm : arms) {
+    for (const auto& run : arm.measured.runs) {
+      for (const auto& signal : run.signals) nrmse = std::fmax(nrmse, signal.nrmse_percent);
+    }
+  }
+  if (nrmse > 0.0) facts.push_back({"largest NRMSE of a signal", number_of(nrmse, 3) + " %"});
   if (measured > 0) {
     facts.push_back({"measured poles and zeros", fmt::format("{}", measured)});
     facts.push_back({"largest error of the model", number_of(error, 3) + " %"});
   }
+  add("largest difference, poles", "pole");
+  add("largest difference, zeros", "zero");
+  add("largest difference, mode shapes", "mode shape");
+  add("largest difference, responses", "response");
   return facts;
 }
 
@@ -165,26 +209,31 @@ Section payload_section(const std::vector<ComparedArm>& arms) {
 PageDocument compare_page(const std::vector<ComparedArm>& arms, const PageOrigin& origin) {
   PageDocument document{origin.program,
                         origin.command,
-                        "Comparison of the formulations: " + origin.subject,
+                        (is_measured(arms) ? "Comparison with the measurement: "
+                                           : "Comparison of the formulations: ") +
+                            origin.subject,
                         comparison_verdict(arms),
                         {},
                         comparison_facts(arms),
                         {}};
   const auto names = named(arms);
+  auto runs = measured_runs(names);
   auto measured = measured_responses(names);
   auto responses = comparison_responses(names);
-  if (!measured.views.empty()) {
-    document.headline = std::move(measured);
-    Section section{"responses", "Frequency responses"};
-    section.add(std::move(responses));
-    document.add(std::move(section));
-  } else if (!responses.views.empty()) {
-    document.headline = std::move(responses);
+  // What was measured comes first; the rest in sections.
+  Section further{"responses", "Frequency responses"};
+  for (CurvesBlock* block : {&runs, &measured, &responses}) {
+    if (block->views.empty()) continue;
+    if (document.headline) {
+      further.add(std::move(*block));
+    } else {
+      document.headline = std::move(*block);
+    }
   }
-  for (const NamedArm& arm : names) {
-    add_measured(document, arm);
-    add_roots(document, arm);
-  }
+  document.add(std::move(further));
+  for (const NamedArm& arm : names) add_measured(document, arm);
+  if (arms.front().comparison.subjects.empty()) return document;
+  for (const NamedArm& arm : names) add_roots(document, arm);
   document.add(payload_section(arms));
   Section shapes{"shapes", "Mode shapes"};
   shapes.add(comparison_shapes(names));

@@ -5,6 +5,7 @@
 #include "report/page/page_words.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/identified_root_tables.hpp"
+#include "report/tables/method_differences.hpp"
 
 #include <fmt/format.h>
 
@@ -71,23 +72,27 @@ std::size_t faults_of(const Identification& identification) {
 
 Verdict identification_verdict(const Identification& identification,
                                const IdentifiedSummary& summary) {
+  const auto doubtful = doubts(identification);
   const std::size_t faults = faults_of(identification);
   const bool is_refused = std::ranges::any_of(identification.runs,
                                               [](const auto& run) { return !run.refusal.empty(); });
   Verdict verdict;
   if (summary.poles + summary.zeros == 0) {
-    verdict = {Status::bad, "nothing identified",
-               "No pole or zero of the arm was identified in these data."};
+    verdict = {Status::bad, "nothing identified", "No pole or zero was identified in these data."};
   } else {
-    verdict = {faults > 0 || is_refused ? Status::partial : Status::good, "identified",
-               fmt::format("{} poles and {} zeros of the arm are identified.", summary.poles,
-                           summary.zeros)};
+    const bool is_good = faults == 0 && !is_refused && doubtful.empty();
+    verdict = {is_good ? Status::good : Status::partial,
+               doubtful.empty() ? "identified" : "doubtful",
+               fmt::format("{} poles and {} zeros are identified.", summary.poles, summary.zeros)};
     if (!summary.furthest.empty()) {
       verdict.sentence +=
           fmt::format(" The largest difference from the arm file is {:.3g} %, in {}.",
                       summary.largest_error_percent, summary.furthest);
     }
   }
+  std::string first;
+  for (const auto& doubt : doubtful) first += text_in_words(doubt) + ". ";
+  verdict.sentence = first + verdict.sentence;
   if (faults > 0) {
     verdict.sentence +=
         fmt::format(" The recordings have {} fault{}.", faults, faults == 1 ? "" : "s");
@@ -108,6 +113,9 @@ Section roots_of_runs(const IdentifiedRuns& runs) {
       for (const auto& [table, id] : tables) add_table(section, table, id);
     }
   }
+  for (const auto& text : all_method_differences(runs.identification, runs.conditions)) {
+    section.text.push_back(text_in_words(text) + ".");
+  }
   return section;
 }
 
@@ -126,7 +134,7 @@ Section fit_section(const IdentifiedRuns& runs) {
           std::ranges::count(fit.fit.poles, true, &measured::FittedPole::is_mode),
           text_in_words(fit.fit.order_reason), fit.fit.converged ? "" : "; not converged"));
       add_table(section, residual_table(fit), "residuals");
-      add_table(section, gain_table(fit, condition.analytical), "gains");
+      add_table(section, gain_table(fit, condition), "gains");
     }
   }
   return section;

@@ -2,15 +2,20 @@
 
 #include "report/figures/frequency_response_figure.hpp"
 #include "report/figures/sensor_label.hpp"
+#include "report/largest_stretch.hpp"
+#include "report/page/overlay_blocks.hpp"
 #include "report/page/page_curves.hpp"
 #include "report/page/page_table.hpp"
 #include "report/page/page_words.hpp"
 #include "report/tables/measured_tables.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -45,6 +50,49 @@ std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compar
   return panels;
 }
 
+std::vector<double> readings_with_gaps(const compare::MeasuredSignal& signal) {
+  std::vector<double> measured = signal.measured;
+  for (const std::size_t k : signal.left_out) measured[k] = kGapNumber;
+  return measured;
+}
+
+std::vector<double> run_residual(const compare::MeasuredSignal& signal) {
+  std::vector<double> residual = readings_with_gaps(signal);
+  for (std::size_t k = 0; k < residual.size(); ++k) residual[k] -= signal.simulated[k];
+  return residual;
+}
+
+/// The signal, its residual, and what drives the simulation.
+std::vector<CurvesPanel> run_panels(const compare::MeasuredTimeRun& run,
+                                    const compare::MeasuredSignal& signal) {
+  const auto series = [&](const std::string& label, Role role, const std::vector<double>& values) {
+    return Series{label, role, Draw::line, record_of(run.time_s, values)};
+  };
+  const std::string unit = unit_text(signal.unit);
+  CurvesPanel values{{text_in_words(signal.sensor), unit}, 1.6, {}};
+  values.series = {series("measured", Role::measured, readings_with_gaps(signal)),
+                   series("simulated", Role::before, signal.simulated)};
+  CurvesPanel below{{"residual", unit}, 1.0, {}};
+  below.series = {series("residual", Role::residual_before, run_residual(signal))};
+  CurvesPanel input = {{"torque", "N m"}, 0.8, {}};
+  input.series = {series("torque", Role::measured, run.torque_N_m)};
+  if (run.closed_loop) {
+    input = {{"reference", unit_text(run.reference.unit)}, 0.8, {}};
+    input.series = {series("reference", Role::measured, run.reference.values)};
+  }
+  return {std::move(values), std::move(below), std::move(input)};
+}
+
+/// The part of a long run in which the residuals have the largest squares.
+std::optional<std::array<double, 2>> worst_part_s(const compare::MeasuredTimeRun& run,
+                                                  const compare::MeasuredSignal& signal) {
+  if (run.time_s.size() <= kWorstSamples) return std::nullopt;
+  std::vector<double> squares = run_residual(signal);
+  for (double& value : squares) value = std::isfinite(value) ? value * value : 0.0;
+  const std::size_t from = begin_of_largest_stretch(squares, kWorstSamples);
+  return std::array{run.time_s[from], run.time_s[from + kWorstSamples - 1]};
+}
+
 }  // namespace
 
 CurvesBlock measured_responses(const std::vector<NamedArm>& arms) {
@@ -67,8 +115,36 @@ CurvesBlock measured_responses(const std::vector<NamedArm>& arms) {
   return block;
 }
 
+CurvesBlock measured_runs(const std::vector<NamedArm>& arms) {
+  CurvesBlock block{
+      {"measured-runs", "Measured and simulated runs",
+       "Simulated with all effects of the arm. Fit, as of compare of MATLAB: "
+       "100 (1 - |y - simulated|/|y - mean of y|) %. Of a long run the panels show the part where "
+       "residuals are largest; the strip below them shows the whole run."},
+      {"time", "s"},
+      choices_of(arms, {"run", "channel"}),
+      {}};
+  for (const NamedArm& arm : arms) {
+    for (const auto& run : arm.arm->measured.runs) {
+      for (const auto& signal : run.signals) {
+        const std::string name = text_in_words(signal.sensor);
+        CurvesView view = view_of(arm, {run.run, name}, run_panels(run, signal));
+        view.facts = {{"fit", number_of(signal.fit_percent(), 4) + " %"},
+                      {"NRMSE", number_of(signal.nrmse_percent, 3) + " %"},
+                      {"payload", number_of(run.payload.mass_kg, 5) + " kg"},
+                      {"start", run.free_start ? "free, estimated" : "at rest"},
+                      {"loop", run.closed_loop ? "closed" : "open"}};
+        view.shown = worst_part_s(run, signal);
+        block.views.push_back(std::move(view));
+      }
+    }
+  }
+  return block;
+}
+
 void add_measured_tables(Section& section, const NamedArm& arm) {
   const compare::MeasuredComparison& measured = arm.arm->measured;
+  add_table(section, measured_runs_table(measured.runs), "measured-runs-table");
   add_table(section, measured_table(measured.rows, arm.arm->comparison.subjects), "measured");
   add_table(section, measured_damping_table(measured.rows), "measured-damping");
   add_table(section, measured_response_table(measured.responses), "measured-response-table");

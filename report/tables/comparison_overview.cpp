@@ -102,7 +102,8 @@ double excess_of(const compare::Finding& finding) {
 
 Table roots_overview(const compare::Comparison& comparison) {
   const auto columns = overview_columns(comparison);
-  Table table{"Roots by " + comparison.subjects.front(), {{"no."}}};
+  const std::string caption = comparison.damped.empty() ? "Roots by " : "Undamped roots by ";
+  Table table{caption + comparison.subjects.front(), {{"no."}}};
   std::size_t rows = 0;
   bool any_real = false;
   for (const auto& column : columns) {

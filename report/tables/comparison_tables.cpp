@@ -238,7 +238,11 @@ std::string convergence_legend(const compare::Comparison& comparison) {
       comparison.subjects.front(), comparison.wanted_accuracy);
 }
 
-std::string verdict_line(const compare::Comparison& comparison) {
+std::string verdict_line(const compare::Comparison& comparison, bool beside_measurement) {
+  const std::string head = beside_measurement ? "Formulations" : "Verdict";
+  if (comparison.subjects.empty()) {
+    return head + ": agree. Without a beam they are the same.";
+  }
   const auto& worst = comparison.verdict.worst;
   const std::string where =
       std::isnan(worst.distance)
@@ -247,7 +251,7 @@ std::string verdict_line(const compare::Comparison& comparison) {
                                                          : comparison.verdict.alone)
           : fmt::format("{}: relative difference of {} and {} {:.1e}, tolerance {:.0e}",
                         worst.quantity, worst.first, worst.second, worst.distance, worst.tolerance);
-  std::string line = fmt::format("Verdict: {}. Largest difference relative to its tolerance: {}.",
+  std::string line = fmt::format("{}: {}. Largest difference relative to its tolerance: {}.", head,
                                  comparison.verdict.agree ? "agree" : "DISAGREE", where);
   const std::string& alone = comparison.verdict.alone;
   if (!alone.empty()) {

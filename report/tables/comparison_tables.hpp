@@ -44,7 +44,8 @@ Table responses_table(const compare::Comparison& comparison);
 /// Responses over frequency, for CSV.
 Table responses_listing(const compare::Comparison& comparison);
 
-/// The verdict in one line.
-std::string verdict_line(const compare::Comparison& comparison);
+/// The verdict on the formulations in one line, which begins "Verdict: agree." or, beside that on a
+/// measurement, "Formulations: agree."
+std::string verdict_line(const compare::Comparison& comparison, bool beside_measurement = false);
 
 }  // namespace flexarm::report

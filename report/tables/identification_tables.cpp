@@ -8,10 +8,26 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace flexarm::report {
 
-namespace {}  // namespace
+namespace {
+
+/// The order of the pole that a fit has at this frequency.
+std::optional<int> order_of_mode(const compare::IdentifiedCondition& condition,
+                                 double frequency_Hz) {
+  for (const auto& roots : condition.roots) {
+    const auto root = std::ranges::find_if(roots, [&](const compare::IdentifiedRoot& one) {
+      return one.measured.feature == measured::Feature::pole && one.order &&
+             one.measured.frequency_Hz == frequency_Hz;
+    });
+    if (root != roots.end()) return root->order;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::string joined(const std::vector<std::string>& run_ids) {
   return fmt::format("{}", fmt::join(run_ids, "+"));
@@ -24,12 +40,30 @@ std::vector<std::string> ids_of(const measured::RunsFit& fit,
   return ids;
 }
 
+std::vector<std::string> doubts(const measured::Identification& identification) {
+  std::vector<std::string> found;
+  for (const auto& fit : identification.fits) {
+    if (const std::string doubt = measured::doubt_of(fit); !doubt.empty()) {
+      found.push_back(fmt::format("{}: {}", joined(ids_of(fit, identification)), doubt));
+    }
+  }
+  return found;
+}
+
 std::vector<std::string> data_notes(const measured::Identification& identification) {
   std::vector<std::string> notes;
   for (const auto& run : identification.runs) {
     for (const auto& finding : run.findings) {
       notes.push_back(fmt::format("{}: {}: {}: {}", run.run.id, finding.channel,
                                   to_string(finding.fault), finding.text));
+    }
+    if (run.left_out_before_decay > 0) {
+      notes.push_back(fmt::format("{}: free decay from {:.4g} s; the samples before are left out",
+                                  run.run.id, *run.decay_begins_s));
+    }
+    if (run.hub_at_rest) {
+      notes.push_back(
+          fmt::format("{}: the hub is at rest: poles are those with the hub held", run.run.id));
     }
     for (const auto& sensor : run.left_out) {
       notes.push_back(fmt::format("{}: {} excluded", run.run.id, arm::to_string(sensor)));
@@ -45,12 +79,6 @@ std::vector<std::string> data_notes(const measured::Identification& identificati
     const auto ids = ids_of(fit, identification);
     if (!fit.refusal.empty()) {
       notes.push_back(fmt::format("{}: no fit: {}", joined(ids), fit.refusal));
-    }
-    if (fit.refusal.empty() && !fit.fit.converged) {
-      notes.push_back(
-          fmt::format("{}: the fit did not converge; the model order may be too high for these "
-                      "data. Poles in the band are more reliable than zeros and gains",
-                      joined(ids)));
     }
     for (const auto& sensor : fit.fit.sensors) {
       const bool untold = std::ranges::any_of(sensor.zeros, [](const measured::FittedZero& zero) {
@@ -81,7 +109,8 @@ std::vector<std::string> setting_lines(const measured::RunIdentification& run) {
   return lines;
 }
 
-Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& analytical) {
+Table gain_table(const measured::RunsFit& fit, const compare::IdentifiedCondition& condition) {
+  const compare::AnalyticalModes& analytical = condition.analytical;
   Table table{"Hub slopes and accelerometer gains, modal mass I_T",
               {{"quantity"},
                {"mode"},
@@ -90,7 +119,7 @@ Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& a
                {"measured", "", 5},
                qualifying("+-", "", 2)}};
   for (const auto& gains : analytical.gains) table.columns.push_back({gains.model, "", 5});
-  table.columns.push_back({"error", "%", 3});
+  if (!analytical.gains.empty()) table.columns.push_back({"error", "%", 3});
   if (!fit.gains) return table;
   const auto add = [&](const std::string& quantity, Cell mode, const std::string& unit,
                        const std::string& by, const measured::Estimate& estimate,
@@ -98,28 +127,23 @@ Table gain_table(const measured::RunsFit& fit, const compare::AnalyticalModes& a
     std::vector<Cell> row = {quantity, std::move(mode), unit,
                              by,       estimate.value,  estimate.standard_error};
     for (const double value : expected) row.emplace_back(value);
+    if (expected.empty()) return table.add_row(std::move(row));
     row.emplace_back(100.0 * (estimate.value - expected.front()) / std::abs(expected.front()));
     table.add_row(std::move(row));
   };
   std::vector<double> inertia;
   for (const auto& gains : analytical.gains) inertia.push_back(gains.total_inertia_kg_m2);
   add("I_T", Cell(), "kg m^2", "rigid body", fit.gains->total_inertia_kg_m2, inertia);
-  std::vector<double> poles_Hz;
-  for (const auto& pole : analytical.poles) poles_Hz.push_back(pole.frequency_Hz);
-  const auto roots = compare::beside_analytical(measured::modal_table(fit.fit), analytical);
   for (const auto& mode : fit.gains->modes) {
-    const auto root = std::ranges::find_if(roots, [&](const compare::IdentifiedRoot& one) {
-      return one.measured.feature == measured::Feature::pole && one.order &&
-             one.measured.frequency_Hz == mode.frequency_Hz;
-    });
-    if (root == roots.end()) continue;
-    const auto index = static_cast<std::size_t>(*root->order - 1);
+    const auto root = order_of_mode(condition, mode.frequency_Hz);
+    if (!root) continue;
+    const auto index = static_cast<std::size_t>(*root - 1);
     std::vector<double> slopes, tips;
     for (const auto& gains : analytical.gains) {
       slopes.push_back(gains.hub_slope[index]);
       tips.push_back(gains.tip_gain_m[index]);
     }
-    const Cell order = std::int64_t{*root->order};
+    const Cell order = std::int64_t{*root};
     if (mode.hub_slope) add("phi'(0)", order, "1", "(48)", *mode.hub_slope, slopes);
     if (mode.hub_slope_of_product) {
       add("phi'(0)", order, "1", "(47), truncated", *mode.hub_slope_of_product, slopes);

@@ -23,6 +23,7 @@ using measured::Method;
 constexpr std::array kMethods = {Method::rational_fit, Method::table, Method::nyquist_circle,
                                  Method::response, Method::autopower};
 constexpr std::size_t kMostUnmatched = 5;
+constexpr int kAfterOrders = std::numeric_limits<int>::max();
 
 /// A root as one method reads it from one sensor.
 struct ReadRoot {
@@ -32,8 +33,9 @@ struct ReadRoot {
   bool hub_held = false;
 
   /// Roots with the same key are the same root.
-  std::tuple<Feature, bool, std::string, int> key() const {
-    return {root->measured.feature, hub_held, is_of_all() ? "" : sensor, root->order.value_or(0)};
+  std::tuple<Feature, bool, std::string, int, double> key() const {
+    return {root->measured.feature, hub_held, is_of_all() ? "" : sensor,
+            root->order.value_or(kAfterOrders), root->alias_of_Hz.value_or(0.0)};
   }
 
   /// A given table may have its poles sensor by sensor.
@@ -48,8 +50,16 @@ struct ReadRoot {
             root->measured.frequency_std_Hz.value_or(std::numeric_limits<double>::infinity())};
   }
 
+  std::string alias_name() const {
+    const std::string mode =
+        root->alias_of_order ? fmt::format("pole {}", *root->alias_of_order) : "a pole";
+    return fmt::format("alias of {} at {:.5g} Hz", mode, *root->alias_of_Hz);
+  }
+
   std::string name() const {
-    const std::string number = root->order ? fmt::format("{}", *root->order) : "unmatched";
+    const std::string number = root->order         ? fmt::format("{}", *root->order)
+                               : root->alias_of_Hz ? alias_name()
+                                                   : "unmatched";
     const bool names_sensor = is_pole() && !is_of_all() && sensor != "all";
     return number + (hub_held ? ", hub held" : "") + (names_sensor ? ", " + sensor : "");
   }
@@ -70,9 +80,11 @@ std::vector<ReadRoot> roots_of(const IdentifiedData& data) {
   return roots;
 }
 
-/// Of each numbered root its best reading; poles first, then the zeros sensor by sensor.
+/// Of each numbered root and each alias its best reading; poles first, then the zeros sensor by
+/// sensor.
 std::vector<ReadRoot> best_of(std::vector<ReadRoot> roots) {
-  std::erase_if(roots, [](const ReadRoot& one) { return !one.root->order; });
+  std::erase_if(roots,
+                [](const ReadRoot& one) { return !one.root->order && !one.root->alias_of_Hz; });
   std::ranges::stable_sort(roots, {},
                            [](const ReadRoot& one) { return std::tuple(one.key(), one.rank()); });
   const auto repeated = std::ranges::unique(roots, {}, &ReadRoot::key);
@@ -87,7 +99,8 @@ std::vector<ReadRoot> unmatched_of(const std::vector<ReadRoot>& roots,
   for (const auto& one : roots) {
     const bool is_used =
         best.empty() || std::ranges::count(best, one.method, &ReadRoot::method) > 0;
-    if (!one.root->order && is_used && found.size() < kMostUnmatched) found.push_back(one);
+    if (one.root->order || one.root->alias_of_Hz || !is_used) continue;
+    if (found.size() < kMostUnmatched) found.push_back(one);
   }
   return found;
 }
@@ -109,7 +122,7 @@ std::vector<ReadRoot> shown_roots(const IdentifiedData& data, bool poles) {
 }  // namespace
 
 Table identified_poles_overview(const IdentifiedData& data) {
-  Table table{fmt::format("{}: poles, undamped natural frequency and damping ratio", data.runs),
+  Table table{fmt::format("{}: poles, natural frequency |s|/(2 pi) and damping ratio", data.runs),
               {{"pole"},
                {"method"},
                {"measured", "Hz", 6},
@@ -127,11 +140,11 @@ Table identified_poles_overview(const IdentifiedData& data) {
                    optional_cell(measured.damping_ratio), optional_cell(measured.damping_ratio_std),
                    optional_cell(one.root->analytical_damping_ratio)});
   }
-  return table;
+  return without_predictions(std::move(table), data.condition);
 }
 
 Table identified_zeros_overview(const IdentifiedData& data) {
-  Table table{fmt::format("{}: zeros, undamped natural frequency", data.runs),
+  Table table{fmt::format("{}: zeros, natural frequency |s|/(2 pi)", data.runs),
               {{"sensor"},
                {"zero"},
                {"method"},
@@ -145,7 +158,7 @@ Table identified_zeros_overview(const IdentifiedData& data) {
                    optional_cell(measured.frequency_Hz), optional_cell(measured.frequency_std_Hz),
                    optional_cell(one.root->analytical_Hz), one.root->error_percent()});
   }
-  return table;
+  return without_predictions(std::move(table), data.condition);
 }
 
 }  // namespace flexarm::report

@@ -71,12 +71,19 @@ const IdentifiedRoot* find_order(const Roots& roots, Feature feature, int order)
   return at == roots.end() ? nullptr : &*at;
 }
 
+const compare::AnalyticalPole* analytical_pole(const IdentifiedData& data, int order) {
+  const auto& poles = data.condition.analytical.poles;
+  const auto index = static_cast<std::size_t>(order - 1);
+  return index < poles.size() ? &poles[index] : nullptr;
+}
+
 /// Frequencies that stand for no analytical root, the lowest of them.
 std::string others_of(const Roots& roots, Feature feature) {
   std::vector<std::string> frequencies;
   for (const auto& root : roots) {
     if (root.measured.feature == feature && !root.order && root.measured.frequency_Hz) {
-      frequencies.push_back(fmt::format("{:.4g}", *root.measured.frequency_Hz));
+      frequencies.push_back(
+          fmt::format("{:.4g}{}", *root.measured.frequency_Hz, root.alias_of_Hz ? " (alias)" : ""));
     }
   }
   const std::size_t left_out =
@@ -212,21 +219,33 @@ std::vector<std::string> sources(const measured::Identification& identification,
   return found;
 }
 
+Table without_predictions(Table table, const compare::IdentifiedCondition& condition) {
+  if (!condition.analytical.is_empty()) return table;
+  for (std::size_t c = table.columns.size(); c-- > 0;) {
+    const std::string& name = table.columns[c].name;
+    if (name != "exact_tf" && name != "analytical" && name != "error") continue;
+    const auto at = static_cast<std::ptrdiff_t>(c);
+    table.columns.erase(table.columns.begin() + at);
+    for (auto& row : table.rows) row.erase(row.begin() + at);
+  }
+  return table;
+}
+
 Table pole_table(const IdentifiedData& data) {
   const auto readings = readings_with(data, Feature::pole);
   const auto orders = orders_of(data, readings, Feature::pole);
-  Table table = table_of(data, "poles, undamped natural frequencies");
+  Table table = table_of(data, "poles, natural frequencies |s|/(2 pi)");
   std::vector<Cell> analytical = {std::string("exact_tf"), std::string("analytical")};
   for (const int order : orders) {
     table.columns.push_back({fmt::format("pole {}", order), "Hz", 6});
     table.columns.push_back(qualifying("+-", "Hz", 2));
     table.columns.push_back(qualifying("error", "%", 3));
-    analytical.emplace_back(
-        data.condition.analytical.poles[static_cast<std::size_t>(order - 1)].frequency_Hz);
+    const auto* pole = analytical_pole(data, order);
+    analytical.push_back(pole ? Cell(pole->frequency_Hz) : Cell());
     analytical.resize(analytical.size() + 2);
   }
   if (readings.empty()) return table;
-  table.add_row(std::move(analytical));
+  if (!data.condition.analytical.is_empty()) table.add_row(std::move(analytical));
   const auto rows = add_pole_rows(
       data, readings, orders, true,
       [](const IdentifiedRoot& root) {
@@ -235,13 +254,13 @@ Table pole_table(const IdentifiedData& data) {
       },
       table);
   add_others(data, rows, Feature::pole, table);
-  return table;
+  return without_predictions(std::move(table), data.condition);
 }
 
 Table zero_table(const IdentifiedData& data) {
   const auto readings = readings_with(data, Feature::zero);
   const auto orders = orders_of(data, readings, Feature::zero);
-  Table table = table_of(data, "zeros of each sensor, undamped natural frequencies");
+  Table table = table_of(data, "zeros of each sensor, natural frequencies |s|/(2 pi)");
   for (const int order : orders) {
     table.columns.push_back({"analytical", "Hz", 6});
     table.columns.push_back(qualifying(fmt::format("zero {}", order), "Hz", 6));
@@ -262,7 +281,7 @@ Table zero_table(const IdentifiedData& data) {
   }
   add_others(data, readings, Feature::zero, table);
   add_column(data, readings, "non-minimum phase", right_half_plane_zeros_of, table);
-  return table;
+  return without_predictions(std::move(table), data.condition);
 }
 
 Table held_pole_table(const IdentifiedData& data) {
@@ -287,7 +306,7 @@ Table held_pole_table(const IdentifiedData& data) {
                      cell(root.measured.damping_ratio), cell(root.measured.damping_ratio_std)});
     }
   }
-  return table;
+  return without_predictions(std::move(table), data.condition);
 }
 
 Table damping_table(const IdentifiedData& data) {
@@ -298,12 +317,12 @@ Table damping_table(const IdentifiedData& data) {
   for (const int order : orders) {
     table.columns.push_back({fmt::format("pole {}", order), "", 4});
     table.columns.push_back(qualifying("+-", "", 2));
-    analytical.emplace_back(
-        data.condition.analytical.poles[static_cast<std::size_t>(order - 1)].damping_ratio);
+    const auto* pole = analytical_pole(data, order);
+    analytical.push_back(pole ? Cell(pole->damping_ratio) : Cell());
     analytical.emplace_back();
   }
   if (orders.empty()) return table;
-  table.add_row(std::move(analytical));
+  if (!data.condition.analytical.is_empty()) table.add_row(std::move(analytical));
   add_pole_rows(
       data, readings, orders, false,
       [](const IdentifiedRoot& root) {

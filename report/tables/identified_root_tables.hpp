@@ -20,6 +20,9 @@ struct IdentifiedData {
 std::vector<std::string> sources(const measured::Identification& identification,
                                  const compare::IdentifiedCondition& condition);
 
+/// The table without the columns of what the arm predicts, where there is no arm.
+Table without_predictions(Table table, const compare::IdentifiedCondition& condition);
+
 /// Tables 2 to 4 of the paper: method, sensor, and for each analytical pole that any reading shows
 /// the measured frequency, its standard error and its distance from the analytical one in per cent;
 /// behind the sensors of a method their mean with the scatter between them. A last column has the

@@ -44,7 +44,7 @@ std::string sensors_of(const compare::MeasuredShape& shape) {
 
 Table measured_table(const std::vector<compare::MeasuredRow>& rows,
                      const std::vector<std::string>& models) {
-  Table table{"Measured and exact_tf (zeros on the imaginary axis: antiresonances)",
+  Table table{"Measured and exact_tf: natural frequencies |s|/2 pi of damped poles and zeros",
               {{"feature"}, {"no."}, {"sensor"}, {"measured", "Hz", 5}}};
   const bool has_std = has_measured_std(rows);
   const bool has_arm_std = has_model_std(rows);
@@ -74,16 +74,18 @@ Table measured_table(const std::vector<compare::MeasuredRow>& rows,
 }
 
 Table measured_damping_table(const std::vector<compare::MeasuredRow>& rows) {
-  Table table{"Measured damping ratios and projected ones of exact_tf",
-              {{"no."},
+  Table table{"Measured damping ratios and those of the damped poles and zeros of exact_tf",
+              {{"feature"},
+               {"no."},
                {"sensor"},
                {"measured", "", 3},
                {"std", "", 2},
                {"model", "", 4},
                {"difference", "std", 3}}};
   for (const auto& row : rows) {
-    if (row.measured.feature != measured::Feature::pole || !row.measured.damping_ratio) continue;
-    table.add_row({order_cell(row), sensor_cell(row), *row.measured.damping_ratio,
+    if (!row.measured.damping_ratio) continue;
+    table.add_row({std::string(measured::to_string(row.measured.feature)), order_cell(row),
+                   sensor_cell(row), *row.measured.damping_ratio,
                    row.measured.damping_ratio_std.value_or(kMissing),
                    row.model_damping_ratio.value_or(kMissing), row.damping_deviation});
   }
@@ -107,6 +109,60 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows) {
       within, known, kWithin, largest,
       has_model_std(rows) ? "of the measurement and of the uncertain numbers of the arm file"
                           : "of the measurement; the arm file states no uncertain number");
+}
+
+Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs) {
+  Table table{"Measured time runs and their simulation with all effects of the arm",
+              {{"run"}, {"start"}, {"loop"}, {"channel"}, {"fit", "%", 4}, {"NRMSE", "%", 3}}};
+  for (const auto& run : runs) {
+    for (const auto& signal : run.signals) {
+      table.add_row({run.run, std::string(run.free_start ? "free" : "rest"),
+                     std::string(run.closed_loop ? "closed" : "open"), signal.sensor,
+                     signal.fit_percent(), signal.nrmse_percent});
+    }
+  }
+  return table;
+}
+
+Table measured_run_listing(const compare::MeasuredTimeRun& run) {
+  Table table{run.run, {{"time", "s"}, {"torque", "N m"}}};
+  for (const auto& signal : run.signals) {
+    table.columns.push_back({signal.sensor + " measured", signal.unit});
+    table.columns.push_back({signal.sensor + " simulated", signal.unit});
+  }
+  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+    std::vector<Cell> cells = {run.time_s[k], run.torque_N_m[k]};
+    for (const auto& signal : run.signals) {
+      const bool is_reading = !std::ranges::binary_search(signal.left_out, k);
+      cells.push_back(is_reading ? Cell(signal.measured[k]) : Cell());
+      cells.emplace_back(signal.simulated[k]);
+    }
+    table.add_row(std::move(cells));
+  }
+  return table;
+}
+
+std::string measured_verdict_line(const compare::MeasuredVerdict& verdict) {
+  std::string line = verdict.agreement == compare::MeasuredAgreement::agrees
+                         ? "Measurement: agrees with the model."
+                         : "Measurement: DIFFERS from the model.";
+  if (verdict.judged_by_std > 0) {
+    line += fmt::format(
+        " Largest difference: {:.3g} standard deviations ({}); chi-square {:.3g} of {} number{}, "
+        "probability {:.2g}, limit {:.2g}.",
+        verdict.in_std.size, verdict.in_std.of, verdict.chi_square, verdict.judged_by_std,
+        verdict.judged_by_std == 1 ? "" : "s", verdict.p_value,
+        compare::MeasuredVerdict::kLeastProbability);
+  }
+  if (verdict.judged_by_percent > 0) {
+    const double percent = verdict.in_percent.size;
+    line += fmt::format(
+        " Largest difference{}: {} % ({}), tolerance {:g} %.",
+        verdict.judged_by_std > 0 ? " without a standard deviation" : "",
+        percent < 1000.0 ? fmt::format("{:.3g}", percent) : fmt::format("{:.0f}", percent),
+        verdict.in_percent.of, verdict.tolerance_percent);
+  }
+  return line;
 }
 
 Table measured_response_table(const std::vector<compare::MeasuredResponse>& responses) {

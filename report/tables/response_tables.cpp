@@ -242,14 +242,14 @@ Table state_space_table(const response::ResponseStudy& study) {
 
 std::string describe_state_space(const response::ResponseStudy& study) {
   return fmt::format("{} states, {} flexible modes{}", study.state_space->a.rows(),
-                     study.modes.modes.size() - 1,
+                     study.truncation->modes,
                      study.residual_mode ? " and a static correction" : "");
 }
 
 std::vector<std::string> chain_notes(const response::ResponseStudy& study) {
   std::vector<std::string> parts;
   const auto& chain = study.chain;
-  if (chain.delay_s > 0.0) parts.push_back(fmt::format("delay {:g} s", chain.delay_s));
+  if (chain.delay_s != 0.0) parts.push_back(fmt::format("delay {:g} s", chain.delay_s));
   if (chain.gain != 1.0) parts.push_back(fmt::format("torque gain {:g}", chain.gain));
   if (chain.lag_s > 0.0) parts.push_back(fmt::format("actuator lag {:g} s", chain.lag_s));
   for (const auto& stages : chain.sensor_chains) {

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -242,6 +244,63 @@ SampledTorque sampled(const Staircase& signal, const SampleGrid& grid) {
   return result;
 }
 
+/// Taps of shift registers of 2 to kMostRegisterLength stages whose sequence has the greatest
+/// period: bit k stands for stage k + 1.
+constexpr std::array<std::uint32_t, kMostRegisterLength - 1> kTaps = {
+    0x3,     0x6,     0xC,     0x14,     0x30,     0x60,     0xB8,    0x110,
+    0x240,   0x500,   0x829,   0x100D,   0x2015,   0x6000,   0xD008,  0x12000,
+    0x20400, 0x40023, 0x90000, 0x140000, 0x300000, 0x420000, 0xE10000};
+
+SampledTorque sampled(const Prbs& signal, const SampleGrid& grid) {
+  arm::require_in_range("prbs.amplitude", signal.amplitude_N_m, "N m", arm::kAnyFinite);
+  arm::require_in_range("prbs.clock", signal.clock_s, "s", arm::kPositive);
+  if (signal.register_length < 2 || signal.register_length > kMostRegisterLength) {
+    throw arm::out_of_range("prbs.register", signal.register_length, "",
+                            fmt::format("from 2 to {}", kMostRegisterLength));
+  }
+  require_time("prbs.clock", signal.clock_s, grid);
+  const std::size_t clock = nearest_sample(signal.clock_s, grid);
+  if (clock == 0) {
+    throw arm::out_of_range("prbs.clock", signal.clock_s, "s",
+                            fmt::format("a sampling period, {:.6g} s, or more", grid.period_s));
+  }
+  const auto length = static_cast<unsigned>(signal.register_length);
+  const std::uint32_t taps = kTaps[length - 2];
+  const std::uint32_t all = (1U << length) - 1U;
+  auto stages = static_cast<std::uint32_t>(1 + RandomNumbers(signal.seed).below(all));
+  SampledTorque result{std::vector<double>(grid.samples), {}, {}};
+  for (std::size_t k = 0; k < grid.samples; ++k) {
+    if (k > 0 && k % clock == 0) {
+      const bool fed_back = std::popcount(stages & taps) % 2 == 1;
+      stages = ((stages << 1U) | (fed_back ? 1U : 0U)) & all;
+    }
+    result.torque_N_m[k] =
+        (stages >> (length - 1U)) != 0U ? signal.amplitude_N_m : -signal.amplitude_N_m;
+  }
+  return result;
+}
+
+SampledTorque sampled(const Sine& signal, const SampleGrid& grid) {
+  arm::require_in_range("sine.amplitude", signal.amplitude_N_m, "N m", arm::kAnyFinite);
+  arm::require_in_range("sine.offset", signal.offset_N_m, "N m", arm::kAnyFinite);
+  arm::require_in_range("sine.phase", signal.phase_rad, "rad", arm::kAnyFinite);
+  if (!(signal.frequency_Hz > 0.0 && signal.frequency_Hz <= grid.nyquist_Hz())) {
+    throw arm::out_of_range(
+        "sine.frequency", signal.frequency_Hz, "Hz",
+        fmt::format("above 0 and at most the Nyquist frequency, {:.6g} Hz", grid.nyquist_Hz()));
+  }
+  require_time("sine.start", signal.start_s, grid);
+  SampledTorque result{std::vector<double>(grid.samples), {}, {}};
+  const std::size_t start = nearest_sample(signal.start_s, grid);
+  for (std::size_t k = start; k < grid.samples; ++k) {
+    const double cycles = signal.frequency_Hz * static_cast<double>(k - start) * grid.period_s;
+    result.torque_N_m[k] =
+        signal.offset_N_m +
+        signal.amplitude_N_m * std::sin(kTwoPi * (cycles - std::floor(cycles)) + signal.phase_rad);
+  }
+  return result;
+}
+
 /// `time_s` moved to the nearest sample.
 void round_to_samples(double& time_s, const SampleGrid& grid) {
   constexpr double kRounding_periods = 1e-6;
@@ -256,6 +315,8 @@ struct NameOf {
   std::string_view operator()(const Multisine&) const { return "multisine"; }
   std::string_view operator()(const Chirp&) const { return "chirp"; }
   std::string_view operator()(const Staircase&) const { return "staircase"; }
+  std::string_view operator()(const Prbs&) const { return "prbs"; }
+  std::string_view operator()(const Sine&) const { return "sine"; }
 };
 
 }  // namespace
@@ -284,6 +345,10 @@ Excitation in_whole_samples(const Excitation& excitation, const SampleGrid& grid
   } else if (auto* staircase = std::get_if<Staircase>(&made)) {
     round_to_samples(staircase->dwell_s, grid);
     round_to_samples(staircase->start_s, grid);
+  } else if (auto* prbs = std::get_if<Prbs>(&made)) {
+    round_to_samples(prbs->clock_s, grid);
+  } else if (auto* sine = std::get_if<Sine>(&made)) {
+    round_to_samples(sine->start_s, grid);
   }
   return made;
 }

@@ -37,6 +37,28 @@ struct Step {
   double start_s = 0.0;
 };
 
+/// Pseudo-random binary sequence, +amplitude or -amplitude: a maximum-length sequence of period
+/// 2^register - 1 clocks, from the feedback shift register of that length. Each value is held for
+/// one clock, rounded to whole samples. Its spectrum falls to half the power near 0.44/clock
+/// [Ljung1999]. The seed sets where in the sequence it begins.
+struct Prbs {
+  double amplitude_N_m = 0.05;
+  double clock_s = 0.005;
+  int register_length = 9;  ///< 2 to kMostRegisterLength
+  std::uint64_t seed = 1;
+};
+inline constexpr int kMostRegisterLength = 24;
+
+/// offset + amplitude sin(2 pi frequency (t - start) + phase) from the sample nearest to `start_s`
+/// on, zero before it.
+struct Sine {
+  double amplitude_N_m = 0.05;
+  double frequency_Hz = 1.0;
+  double offset_N_m = 0.0;
+  double phase_rad = 0.0;
+  double start_s = 0.0;
+};
+
 /// Normal noise of mean 0 whose spectrum is flat between two frequencies and zero outside: lines
 /// 1/(duration) apart with normal real and imaginary parts, scaled so that the samples' root mean
 /// square is `rms_N_m`. The duration is that of the record, or a little longer where its number of
@@ -84,9 +106,10 @@ struct Staircase {
   int levels = 3;
 };
 
-using Excitation = std::variant<BangBang, Step, RandomNoise, Multisine, Chirp, Staircase>;
+using Excitation =
+    std::variant<BangBang, Step, RandomNoise, Multisine, Chirp, Staircase, Prbs, Sine>;
 
-/// "bang-bang", "step", "random", "multisine", "chirp", "staircase".
+/// "bang-bang", "step", "random", "multisine", "chirp", "staircase", "prbs", "sine".
 std::string_view name(const Excitation& excitation);
 
 /// A torque, and the lines it is made of.

@@ -64,9 +64,24 @@ std::vector<Slot> slots_of(Staircase& signal) {
           {"levels", "", &signal.levels}};
 }
 
+std::vector<Slot> slots_of(Prbs& signal) {
+  return {{"amplitude", "N m", &signal.amplitude_N_m},
+          {"clock", "s", &signal.clock_s},
+          {"register", "", &signal.register_length},
+          {"seed", "", &signal.seed}};
+}
+
+std::vector<Slot> slots_of(Sine& signal) {
+  return {{"amplitude", "N m", &signal.amplitude_N_m},
+          {"frequency", "Hz", &signal.frequency_Hz},
+          {"offset", "N m", &signal.offset_N_m},
+          {"phase", "rad", &signal.phase_rad},
+          {"start", "s", &signal.start_s}};
+}
+
 /// Each kind of excitation, with its defaults.
 std::vector<Excitation> every_kind() {
-  return {BangBang{}, Step{}, RandomNoise{}, Multisine{}, Chirp{}, Staircase{}};
+  return {BangBang{}, Step{}, RandomNoise{}, Multisine{}, Chirp{}, Staircase{}, Prbs{}, Sine{}};
 }
 
 constexpr std::array<std::pair<Sweep, const char*>, 2> kSweeps = {

@@ -6,6 +6,7 @@
 #include "response/frequency/continuous_phase.hpp"
 #include "response/frequency/modal_response.hpp"
 #include "response/residual_mode.hpp"
+#include "response/settings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,26 +30,6 @@ FrequencyGrid grid_of_hub(const AnyFormulation& formulation, const ResponseOptio
   FrequencyGrid grid;
   grid.from_Hz = options.from_Hz.value_or(middle_Hz / kDecades);
   grid.to_Hz = options.to_Hz.value_or(middle_Hz * kDecades);
-  grid.points = options.points;
-  return grid;
-}
-
-FrequencyGrid grid_of(const AnyFormulation& formulation, const ResponseOptions& options) {
-  if (!arm::has_beam(arm_of(formulation))) return grid_of_hub(formulation, options);
-  // The pole beyond those asked for, where the model has one.
-  const auto pole_set = poles(formulation, options.modes + 1);
-  const auto& known = pole_set.omega_rad_per_s;
-  const bool has_next = std::ssize(known) > options.modes;
-  const double last =
-      has_next ? std::sqrt(known.back() * known[known.size() - 2]) : 1.2 * known.back();
-  double lowest = known.front() / kBelowFirstPole;
-  if (pole_set.lowest_omega_squared_rad2_per_s2 > 0.0) {
-    lowest =
-        std::min(lowest, std::sqrt(pole_set.lowest_omega_squared_rad2_per_s2) / kBelowLowestPole);
-  }
-  FrequencyGrid grid;
-  grid.from_Hz = options.from_Hz.value_or(lowest / (2.0 * std::numbers::pi));
-  grid.to_Hz = options.to_Hz.value_or(last / (2.0 * std::numbers::pi));
   grid.points = options.points;
   return grid;
 }
@@ -114,8 +95,30 @@ FrequencyResponse response_of(const StateSpace& system, const std::vector<double
 
 }  // namespace
 
+FrequencyGrid frequency_range(const AnyFormulation& formulation, const ResponseOptions& options) {
+  if (!arm::has_beam(arm_of(formulation))) return grid_of_hub(formulation, options);
+  // The pole beyond those asked for, where the model has one.
+  const auto pole_set = poles(formulation, options.modes + 1);
+  const auto& known = pole_set.omega_rad_per_s;
+  const bool has_next = std::ssize(known) > options.modes;
+  const double last =
+      has_next ? std::sqrt(known.back() * known[known.size() - 2]) : 1.2 * known.back();
+  double lowest = known.front() / kBelowFirstPole;
+  if (pole_set.lowest_omega_squared_rad2_per_s2 > 0.0) {
+    lowest =
+        std::min(lowest, std::sqrt(pole_set.lowest_omega_squared_rad2_per_s2) / kBelowLowestPole);
+  }
+  FrequencyGrid grid;
+  grid.from_Hz = options.from_Hz.value_or(lowest / (2.0 * std::numbers::pi));
+  grid.to_Hz = options.to_Hz.value_or(last / (2.0 * std::numbers::pi));
+  grid.points = options.points;
+  return grid;
+}
+
 int roots_needed(const arm::Arm& arm, const ResponseOptions& options) {
   if (!arm::has_beam(arm)) return options.modes + 1;
+  const bool is_chosen = options.state_space && !options.state_space_modes;
+  const int least = is_chosen ? kMostRoots : options.modes + 1;
   // Poles that a soft root, a crack, masses on the beam and shear bring down or add at most.
   constexpr int kSofter = 5;
   constexpr double kMost = 1e9;
@@ -124,14 +127,14 @@ int roots_needed(const arm::Arm& arm, const ResponseOptions& options) {
   const double lambda = std::sqrt(std::max(0.0, 2.0 * std::numbers::pi * highest_Hz) /
                                   arm::omega_scale_rad_per_s(arm));
   const double below = std::min(std::ceil(lambda / std::numbers::pi), kMost);
-  return std::max(options.modes + 1, static_cast<int>(below) + kSofter);
+  return std::max(least, static_cast<int>(below) + kSofter);
 }
 
 ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulation,
                              const ResponseOptions& options) {
   arm::require_count(options.modes);
   for (const auto& sensor : options.sensors) arm::require_valid(sensor, arm);
-  const auto grid = grid_of(formulation, options);
+  const auto grid = frequency_range(formulation, options);
   if (options.frequency_Hz.empty()) {
     logarithmic_frequencies(grid);  // throws for limits that make no grid
   } else {
@@ -168,10 +171,17 @@ ResponseStudy study_response(const arm::Arm& arm, const AnyFormulation& formulat
     add_phases(formulation, options, study);
     return study;
   }
-  auto model = study.modes;
+  const auto judged_Hz = options.frequency_Hz.empty()
+                             ? judged_frequencies_Hz(grid.from_Hz, grid.to_Hz)
+                             : options.frequency_Hz;
+  study.truncation =
+      truncation_in_frequency(formulation, options.sensors, judged_Hz, options.static_correction,
+                              {options.state_space_modes, most_chosen_modes(name(formulation))});
+  auto model = modal_model(formulation, study.truncation->modes, options.sensors, {});
+  study.truncation->modes = static_cast<int>(model.modes.size()) - 1;
   if (options.static_correction) {
     model = with_residual_mode(formulation, model, options.sensors);
-    study.residual_mode = model.modes.size() > study.modes.modes.size();
+    study.residual_mode = std::ssize(model.modes) > study.truncation->modes + 1;
   }
   study.state_space = state_space(model, options.sensors, study.chain);
   study.state_space_response = response_of(*study.state_space, frequency_Hz, done);

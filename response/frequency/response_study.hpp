@@ -5,6 +5,7 @@
 #include "response/frequency/resonance.hpp"
 #include "response/frequency/transfer_forms.hpp"
 #include "response/state_space.hpp"
+#include "response/truncation.hpp"
 
 #include <functional>
 #include <optional>
@@ -17,7 +18,10 @@ namespace flexarm::response {
 /// What `study_response` is asked.
 struct ResponseOptions {
   std::vector<arm::Sensor> sensors;
-  int modes = 5;  ///< flexible poles, zeros of each sensor, and modes of the state space
+  int modes = 5;  ///< flexible poles, and zeros of each sensor
+  /// Flexible modes of the state space; empty: chosen for the frequencies
+  /// (response/truncation.hpp).
+  std::optional<int> state_space_modes = {};
   std::optional<double> from_Hz;     ///< empty: well below the first pole
   std::optional<double> to_Hz;       ///< empty: midway between the last pole and the next
   int points = 400;                  ///< of the logarithmic grid that is refined
@@ -40,7 +44,8 @@ struct ResponseStudy {
   FrequencyResponse response;
   std::vector<std::vector<Resonance>> resonances;  ///< one list a sensor
   std::optional<StateSpace> state_space;
-  bool residual_mode = false;  ///< the state space has one
+  bool residual_mode = false;            ///< the state space has one
+  std::optional<Truncation> truncation;  ///< of the state space
   std::optional<FrequencyResponse> state_space_response;
 };
 
@@ -50,6 +55,10 @@ inline constexpr int kMostFeatures = 200;
 /// How many roots a formulation has to be fine enough for: the modes and one more, and those up to
 /// the highest frequency by lambda_n ~ (n + 1/4) pi of the plain arm, and a few.
 int roots_needed(const arm::Arm& arm, const ResponseOptions& options);
+
+/// The frequencies of `options`: those given, or the range from well below the first pole to above
+/// the last of options.modes poles. Throws InputError for counts that cannot be used.
+FrequencyGrid frequency_range(const AnyFormulation& formulation, const ResponseOptions& options);
 
 /// `formulation` is of the linear part of `arm`, whose other effects are looked up here: the linear
 /// ones of actuator and sensor are in the response and the state space, the others named.

@@ -86,6 +86,10 @@ CosimulatedArm::CosimulatedArm(const arm::ModalModel& model, const ArmParts& par
                                std::span<const arm::Sensor> sensors,
                                const SimulationOptions& options) {
   require_options(options);
+  if (parts.actuator.delay_s < 0.0) {
+    throw arm::out_of_range("stepped arm: delay of the torque", parts.actuator.delay_s, "s",
+                            "0 or more, as the command is not known before");
+  }
   model_ = std::make_shared<const Model>(model, parts, sensors, options);
   if (sensors.empty()) throw arm::InputError("sensors: there are none");
   for (std::size_t j = 0; j < sensors.size(); ++j) {

@@ -115,6 +115,8 @@ DrivenArm::DrivenArm(const ModalDynamics& arm, const arm::ModalModel& model, con
   if (clips(parts.actuator, drive)) {
     actuator = parts.actuator;
     actuator.delay_s = std::fmod(actuator.delay_s, 1.0 / drive.frequency_Hz);
+    // One that leads is one that is late by the rest of a period.
+    if (actuator.delay_s < 0.0) actuator.delay_s += 1.0 / drive.frequency_Hz;
     // As many samples before the period as the delay needs, and the one that ends the period.
     lead = static_cast<std::size_t>(std::ceil(actuator.delay_s / sample_time_s_)) + 1;
     for (std::size_t k = 0; k < lead + n + 1; ++k) {

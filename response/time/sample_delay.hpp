@@ -8,7 +8,7 @@ namespace flexarm::response {
 /// delay/sample_time is rounded by no more.
 inline constexpr double kSameInstant = 1e-9;
 
-/// A delay as whole samples and the fraction of one, 0 or more and below 1.
+/// A delay as whole samples, below 0 where it leads, and the fraction of one, 0 or more and below 1.
 struct SampleDelay {
   double samples = 0.0;
   double fraction = 0.0;

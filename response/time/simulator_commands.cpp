@@ -26,6 +26,10 @@ ArmSimulator::Commands::Commands(const ArmSimulator& arm, const ClosedLoop& loop
   if (options.hold != TorqueHold::zero) {
     throw arm::InputError("torque hold: must be zero-order in a closed loop");
   }
+  if (arm.parts_.actuator.delay_s < 0.0) {
+    throw arm::out_of_range("closed loop: delay of the torque", arm.parts_.actuator.delay_s, "s",
+                            "0 or more, as the command is not known before");
+  }
   if (loop.reference.empty()) throw arm::InputError("reference: there are no samples");
   for (std::size_t k = 0; k < loop.reference.size(); ++k) {
     if (std::isfinite(loop.reference[k])) continue;

@@ -29,7 +29,9 @@ std::size_t TorquePath::part_from(double cut) const {
 
 double TorquePath::acting_sample(std::ptrdiff_t k, std::size_t part) const {
   const bool is_of_sample_before = edges_[part] < delay_.fraction;
-  return static_cast<double>(k) - delay_.samples - (is_of_sample_before ? 1.0 : 0.0);
+  const double sample =
+      static_cast<double>(k) - delay_.samples - (is_of_sample_before ? 1.0 : 0.0);
+  return std::min(sample, static_cast<double>(torque_N_m_.size()) - 1.0);
 }
 
 TorquePiece TorquePath::command(std::ptrdiff_t k, std::size_t part) const {
@@ -104,9 +106,8 @@ Eigen::MatrixXd TorquePath::held_parts(std::ptrdiff_t first) const {
   const double before_run_N_m = actuator_.mapped(0.0);
   Eigen::MatrixXd made(parts, intervals);
   for (std::ptrdiff_t part = 0; part < parts; ++part) {
-    const double later = acting_sample(first, static_cast<std::size_t>(part));
     for (std::ptrdiff_t i = 0; i < intervals; ++i) {
-      const double j = later + static_cast<double>(i);
+      const double j = acting_sample(first + i, static_cast<std::size_t>(part));
       made(part, i) =
           j < 0.0 ? before_run_N_m : actuator_.mapped(torque_N_m_[static_cast<std::size_t>(j)]);
     }

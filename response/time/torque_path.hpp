@@ -25,7 +25,8 @@ struct TorquePiece {
 
 /// The commanded torque behind delay and maps, exactly: straight pieces between the breaks that the
 /// delayed samples, the bends of the maps and `cuts` make. The lag comes later. Before the first
-/// sample the command is zero.
+/// sample the command is zero, and behind the last it stays as it is: with a delay below 0 the
+/// torque leads its samples.
 class TorquePath {
  public:
   using Pieces = std::vector<TorquePiece>;
@@ -36,7 +37,6 @@ class TorquePath {
              TorqueHold hold, std::span<const double> cuts = {});
 
   /// The pieces from sample `k` to the next, in order, none empty; `k` may be before the first.
-  /// Behind the last sample the command stays as it is.
   void pieces(std::ptrdiff_t k, Pieces& pieces) const;
 
   /// The torques [N m] of the parts of the sample intervals from `first` on, up to that of the last
@@ -52,8 +52,8 @@ class TorquePath {
   std::size_t part_from(double cut) const;
 
  private:
-  /// The sample whose command acts in a part of the interval behind sample `k`; below 0 before that
-  /// of the first.
+  /// The sample whose command acts in a part of the interval behind sample `k`, the last one at
+  /// most; below 0 before that of the first.
   double acting_sample(std::ptrdiff_t k, std::size_t part) const;
   /// whole_parts of a torque that is held.
   Eigen::MatrixXd held_parts(std::ptrdiff_t first) const;

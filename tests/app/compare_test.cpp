@@ -123,7 +123,7 @@ class MeasuredTable : public Flexarm {
   Json rows_beside_model(const std::string& modal_csv) {
     write("modal.csv", modal_csv);
     const Ended ended = run({"compare", "--quick", "--measured", "modal.csv", "--json", "c.json"});
-    EXPECT_EQ(ended.status, 0) << ended.errors;
+    EXPECT_LE(ended.status, 1) << ended.errors;  // 1 where a table differs from the model
     EXPECT_THAT(ended.output, HasSubstr("Measured and exact_tf"));
     return Json::parse(text_of("c.json"))["comparisons"][0]["measured"];
   }

@@ -57,7 +57,7 @@ TEST(Completion, BashOffersFilesAndFoldersAndNothingForANumber) {
 
 TEST(Completion, FishOffersCommandsOptionsAndWords) {
   EXPECT_THAT(fish_offers("flexarm comp"),
-              AllOf(HasSubstr("compare\tCompare poles"), HasSubstr("completion\t")));
+              AllOf(HasSubstr("compare\tCompare the three formulations"), HasSubstr("completion\t")));
   EXPECT_THAT(fish_offers("flexarm modes --pay"), HasSubstr("--payload-mass\t"));
   EXPECT_THAT(fish_offers("flexarm modes --formulation "), HasSubstr("assumed_modes\t"));
   EXPECT_THAT(fish_offers("flexarm modes --sensor hub_angle,tip_a"),
@@ -94,10 +94,32 @@ TEST_F(Flexarm, ManualPagesHaveEachOptionOfTheHelp) {
     const std::string name = std::regex_replace((*found)[1].str(), std::regex("-"), "\\-");
     EXPECT_THAT(compare, HasSubstr("\\fB" + name + "\\fR"));
   }
-  EXPECT_THAT(compare, AllOf(HasSubstr("\\fB\\-\\-payload\\-mass\\fR \\fIFLOAT\\fR ..."),
+  EXPECT_THAT(compare, AllOf(HasSubstr("\\fB\\-\\-payload\\-mass\\fR \\fINUMBER,...\\fR\n"),
                              HasSubstr(".SH EXIT STATUS\n"), HasSubstr(".SH EXAMPLE\n"),
                              HasSubstr("flexarm compare rig.toml \\-\\-poles 6")));
   EXPECT_THAT(text_of("pages/flexarm.1"), HasSubstr("\\fBflexarm\\-diagnose\\fR(1)"));
+}
+
+TEST_F(Flexarm, ManualPageHasItsHeadingsAndNoSentenceAmongThem) {
+  ASSERT_EQ(run({"manual-pages", "pages"}).status, 0);
+  const auto headings_of = [this](const std::string& page) {
+    const std::string text = text_of("pages/" + page);
+    const std::regex heading("(?:^|\n)\\.SH ([^\n]*)");
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), heading), end; at != end; ++at) {
+      found.push_back((*at)[1].str());
+    }
+    return found;
+  };
+  EXPECT_THAT(headings_of("flexarm.1"),
+              testing::ElementsAre("NAME", "SYNOPSIS", "DESCRIPTION", "COMMANDS", "OPTIONS",
+                                   "TYPICAL SESSION", "NUMBERS", "HELP", "EXIT STATUS"));
+  EXPECT_THAT(headings_of("flexarm-diagnose.1"),
+              testing::ElementsAre("NAME", "SYNOPSIS", "ARGUMENTS", "OPTIONS", "VERDICTS",
+                                   "EXAMPLE", "SEE ALSO"));
+  EXPECT_THAT(headings_of("flexarm-completion.1"),
+              testing::ElementsAre("NAME", "SYNOPSIS", "ARGUMENTS", "OPTIONS", "START FILES",
+                                   "EXAMPLE", "SEE ALSO"));
 }
 
 }  // namespace

@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <functional>
 #include <random>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -199,6 +202,116 @@ TEST_F(Diagnose, EndsAtItsTimeLimitWithWhatItHas) {
     EXPECT_EQ(refused.status, 2) << limit;
     EXPECT_THAT(refused.errors, HasSubstr("--time-limit")) << limit;
   }
+}
+
+/// Seconds that a diagnosis with a limit of 3 s took.
+class TimeLimit : public Diagnose {
+ protected:
+  double seconds_of(const std::string& file) const {
+    const auto begun = std::chrono::steady_clock::now();
+    const Ended ended = run({"diagnose", file, "--time-limit", "3"});
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  }
+
+  static constexpr double kMost_s = 5.0;
+};
+
+TEST_F(TimeLimit, HoldsOnTheLongestDataOfTheRepository) {
+  const std::string ruler = FLEXARM_SOURCE_DIR "/data/ruler/";
+  const Ended imported =
+      run({"import", ruler + "random-low.csv", ruler + "random-high.csv", ruler + "bang-bang.csv",
+           "--arm", ruler + "ruler.toml", "--out", "ruler"});
+  ASSERT_EQ(imported.status, 0) << imported.errors;
+  EXPECT_LT(seconds_of("ruler/measurement.toml"), kMost_s);
+}
+
+/// Runs of 25,000 samples are used whole; friction and an unknown initial state make the evaluation
+/// of a model take seconds.
+TEST_F(TimeLimit, HoldsOnLongRuns) {
+  write("rig.toml", std::string(kDiagnosedArm) + "[effects.coulomb_friction]\ntorque = 0.01\n");
+  std::vector<std::string> command = {
+      "simulate", "rig.toml", "--duration", "24.9", "--period", "0.001",
+      "--noise",  "0.003",    "--modes",    "8",    "--sensor", "hub_angle,tip_acceleration",
+      "--out",    "sim"};
+  for (const char* seed : {"1", "2", "3", "4"}) {
+    command.emplace_back("--excitation");
+    command.push_back(fmt::format("random:rms=0.05,from=0.2,to=200,id=r{0},seed={0}", seed));
+  }
+  const Ended simulated = run(command);
+  ASSERT_EQ(simulated.status, 0) << simulated.errors;
+  const std::string free =
+      std::regex_replace(text_of("sim/measurement.toml"), std::regex("kind = \"time\""),
+                         "kind = \"time\"\ninitial = \"free\"");
+  write("sim/measurement.toml", free);
+  EXPECT_LT(seconds_of("sim/measurement.toml"), kMost_s);
+}
+
+class LateTorque : public Diagnose, public testing::WithParamInterface<double> {
+ protected:
+  /// The torque column of a run moved one row down.
+  void log_late(const std::string& file) const {
+    std::istringstream lines(text_of(file));
+    std::string all;
+    std::string before = "0";
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_sample = !line.empty() && (std::isdigit(line.front()) != 0);
+      const auto begin = line.find(',') + 1;
+      const auto end = line.find(',', begin);
+      const std::string torque = line.substr(begin, end - begin);
+      all += is_sample ? line.substr(0, begin) + before + line.substr(end) : line;
+      all += "\n";
+      if (is_sample) before = torque;
+    }
+    write(file, all);
+  }
+
+  void expect_delay(const char* measurement, double delay_s, const char* effects) const {
+    const Ended ended = run({"diagnose", measurement, "--effects", effects, "--json", "out.json"});
+    ASSERT_EQ(ended.status, 0) << ended.errors;
+    const Json json = Json::parse(text_of("out.json"));
+    EXPECT_EQ(json["verdict"], "explained") << ended.output;
+    ASSERT_EQ(json["causes"].size(), 1U) << ended.output;
+    EXPECT_EQ(json["causes"][0]["effect"], "time_delay");
+    EXPECT_NEAR(json["causes"][0]["parameters"]["delay"]["value"].get<double>(), delay_s,
+                0.01 * std::abs(delay_s));
+  }
+};
+
+/// At these sampling periods [s].
+INSTANTIATE_TEST_SUITE_P(, LateTorque, testing::Values(0.001, 0.002, 0.004));
+
+TEST_P(LateTorque, IsATimeDelayBelowZero) {
+  write("rig.toml", std::string(kDiagnosedArm));
+  const Ended simulated =
+      run({"simulate", "rig.toml", "--duration", "6", "--period", fmt::format("{}", GetParam()),
+           "--noise", "0.01", "--modes", "20", "--sensor", "hub_angle,tip_acceleration",
+           "--excitation", "random:rms=0.05,from=0.2,to=60,id=a,seed=1", "--excitation",
+           "random:rms=0.05,from=0.2,to=60,id=b,seed=2", "--out", "sim"});
+  ASSERT_EQ(simulated.status, 0) << simulated.errors;
+  log_late("sim/a.csv");
+  log_late("sim/b.csv");
+  expect_delay("sim/measurement.toml", -GetParam(),
+               "time_delay,torque_gain,actuator_lag,hub_viscous_friction");
+}
+
+TEST_P(LateTorque, InClosedLoopIsOneToo) {
+  write("rig.toml", std::string(kDiagnosedArm));
+  const std::string period = fmt::format("{}", GetParam());
+  const Ended simulated = run({"simulate",     "rig.toml",
+                               "--duration",   "6",
+                               "--period",     period,
+                               "--noise",      "0.003",
+                               "--modes",      "20",
+                               "--sensor",     "hub_angle,hub_velocity",
+                               "--controller", "kp=0.5,kd=0.05,sample_time=" + period,
+                               "--reference",  "staircase:amplitude=0.3,dwell=0.7,id=a",
+                               "--reference",  "staircase:amplitude=0.2,dwell=0.5,id=b",
+                               "--out",        "sim"});
+  ASSERT_EQ(simulated.status, 0) << simulated.errors;
+  log_late("sim/a.csv");
+  log_late("sim/b.csv");
+  expect_delay("sim/measurement.toml", -GetParam(), "time_delay,torque_gain,hub_viscous_friction");
 }
 
 TEST_F(Diagnose, InterruptedItWritesNothing) {

@@ -51,6 +51,24 @@ TEST_F(Help, HasGroupsUnitsAndDefaults) {
                           HasSubstr("[kg m^2]"), HasSubstr("\n  -v, --verbose ")));
 }
 
+TEST_F(Help, AListIsOneAndOtherOptionsAreRepeated) {
+  const std::string simulate = run({"simulate", "--help"}).output;
+  EXPECT_THAT(simulate,
+              AllOf(HasSubstr("  --torque FILE  "), HasSubstr("  --reference TEXT  "),
+                    HasSubstr("  --excitation TEXT  "), HasSubstr("  --sensor NAME,...")));
+  EXPECT_THAT(run({"import", "--help"}).output,
+              AllOf(HasSubstr("  --run TEXT  "), HasSubstr("  --validation TEXT  ")));
+  // What the help says is a list is read as one.
+  EXPECT_THAT(run({"identify", "--help"}).output, HasSubstr("  --run TEXT,..."));
+  ASSERT_EQ(run({"simulate", "--duration", "1", "--period", "0.002", "--excitation", "step:id=a",
+                 "--excitation", "prbs:id=b", "--out", "out"})
+                .status,
+            0);
+  EXPECT_THAT(run({"identify", "out/measurement.toml", "--run", "a,c"}).errors,
+              AllOf(HasSubstr("c"), testing::Not(HasSubstr("a,c"))));
+  EXPECT_EQ(run({"simulate", "--torque", "out/a.csv", "--torque", "out/b.csv"}).status, 0);
+}
+
 TEST_F(Help, OfDiagnoseDefinesTheVerdicts) {
   EXPECT_THAT(run({"diagnose", "--help"}).output,
               AllOf(HasSubstr("\nVerdicts:\n"), HasSubstr("\n  partly_explained  Effects are")));

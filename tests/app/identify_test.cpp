@@ -43,15 +43,15 @@ class Identify : public Flexarm {
 TEST_F(Identify, PrintsTablesLikeThePapers) {
   simulate("sim");
   const Ended brief = run({"identify", "sim/measurement.toml"});
-  EXPECT_THAT(brief.output, AllOf(testing::StartsWith("random: poles, undamped"),
-                                  HasSubstr("random: zeros, undamped"), HasSubstr("\nnext: "),
+  EXPECT_THAT(brief.output, AllOf(testing::StartsWith("random: poles, natural"),
+                                  HasSubstr("random: zeros, natural"), HasSubstr("\nnext: "),
                                   Not(HasSubstr("segment: ")), Not(HasSubstr("(48)"))));
   EXPECT_LT(std::ranges::count(brief.output, '\n'), 45) << "an answer fits on a screen";
   const Ended ended = run({"identify", "sim/measurement.toml", "--verbose"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("random: spectra and frequency responses"), HasSubstr("segment: "),
-                    HasSubstr("random: poles, undamped"), HasSubstr("random: zeros of each sensor"),
+                    HasSubstr("random: poles, natural"), HasSubstr("random: zeros of each sensor"),
                     HasSubstr("damping ratios"), HasSubstr("mean, std. dev."),
                     HasSubstr("Modal fit of random"), HasSubstr("(48)"), HasSubstr("(52)"),
                     HasSubstr("zeros on the real axis"), HasSubstr("next: ")));
@@ -203,6 +203,137 @@ TEST_F(Identify, AnInputThatCannotBeIsOneLine) {
     EXPECT_THAT(ended.errors, HasSubstr(what));
     EXPECT_EQ(std::ranges::count(ended.errors, '\n'), 1) << ended.errors;
   }
+}
+
+TEST_F(Identify, AFitThatNoArmCanHaveIsTheHeadlineOfTextJsonAndReport) {
+  simulate("sim");
+  // The torque with the wrong sign: an inertia below 0.
+  std::istringstream lines(text_of("sim/random.csv"));
+  std::string made, line;
+  for (int row = 0; std::getline(lines, line); ++row) {
+    const auto first = line.find(',') + 1;
+    if (row > 0) {
+      line.replace(first, 0, "-");
+      if (line.compare(first, 2, "--") == 0) line.erase(first, 2);
+    }
+    made += line + "\n";
+  }
+  write("sim/random.csv", made);
+  const Ended ended =
+      run({"identify", "sim/measurement.toml", "--json", "out.json", "--report", "out.html"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, testing::StartsWith("Doubtful: random: the fit is unphysical: 1/I_T"));
+  const Json json = Json::parse(text_of("out.json"));
+  EXPECT_EQ(json["state"], "unphysical");
+  EXPECT_EQ(json["doubts"].size(), 1U);
+  EXPECT_THAT(json["fits"][0]["unphysical"].get<std::string>(), HasSubstr("is not positive"));
+  EXPECT_THAT(text_of("out.html"), HasSubstr("the fit is unphysical"));
+}
+
+TEST_F(Identify, ASoundFitIsIdentified) {
+  simulate("sim");
+  const Ended ended = run({"identify", "sim/measurement.toml", "--json", "out.json"});
+  const Json json = Json::parse(text_of("out.json"));
+  EXPECT_EQ(json["state"], "identified");
+  EXPECT_TRUE(json["doubts"].empty());
+  EXPECT_TRUE(json["fits"][0]["unphysical"].is_null());
+  EXPECT_THAT(ended.output, Not(HasSubstr("Doubtful")));
+}
+
+TEST_F(Identify, NeedsNoArmAndOtherCommandsNameIt) {
+  simulate("sim");
+  write("sim/no-arm.toml", "[[run]]\nid = \"random\"\nkind = \"time\"\nfile = \"random.csv\"\n");
+  const Ended ended = run({"identify", "sim/no-arm.toml", "--out", "out", "--report", "out.html"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output,
+              AllOf(testing::StartsWith("random: poles"),
+                    HasSubstr("the measurement states no arm"), Not(HasSubstr("exact_tf"))));
+  const Json json = Json::parse(text_of("out/identified.json"));
+  EXPECT_TRUE(json["arm"].is_null());
+  EXPECT_THAT(text_of("out/modal-fit-random.csv"), HasSubstr("pole"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"diagnose", "sim/no-arm.toml"},
+        std::vector<std::string>{"compare", "--measured", "sim/no-arm.toml"}}) {
+    const Ended refused = run(command);
+    EXPECT_EQ(refused.status, 2) << command.front();
+    EXPECT_THAT(refused.errors, HasSubstr("arm: missing")) << command.front();
+    EXPECT_EQ(std::ranges::count(refused.errors, '\n'), 1) << refused.errors;
+  }
+}
+
+TEST_F(Identify, TakesAnArmFileWithoutNumbersForNone) {
+  simulate("sim");
+  const Ended imported = run({"import", "sim/random.csv", "--out", "bench"});
+  ASSERT_EQ(imported.status, 0) << imported.errors;
+  EXPECT_THAT(imported.output, HasSubstr("flexarm identify bench/measurement.toml"));
+  const Ended ended = run({"identify", "bench/measurement.toml"});
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("no number is filled in in arm.toml"));
+  EXPECT_EQ(run({"diagnose", "bench/measurement.toml"}).status, 2);
+}
+
+TEST_F(Identify, AnAliasIsNoPoleAndOnePeakHasOneOrder) {
+  const std::string rest =
+      "linear_density = 0.25\nthickness = 0.0016\n[hub]\ninertia = 2e-3\n"
+      "viscous_friction = 0.02\n[damping]\nkelvin_voigt = 2e-5\n";
+  const std::string beam = "[beam]\nlength = 0.43\nflexural_rigidity = ";
+  write("true.toml", beam + "2.3\n" + rest);
+  const Ended made =
+      run({"simulate", "true.toml", "--modes", "25", "--excitation",
+           "random:rms=0.02,from=0.5,to=240,id=a,seed=3", "--duration", "20", "--period", "0.002",
+           "--sensor", "hub_angle,tip_acceleration", "--noise", "0.05", "--out", "run"});
+  ASSERT_EQ(made.status, 0) << made.errors;
+  for (const std::string rigidity : {"1.36", "2.3", "3.6"}) {
+    write("run/arm.toml", beam + rigidity + "\n" + rest);
+    const Ended ended = run({"identify", "run/measurement.toml", "--json", "out.json"});
+    ASSERT_EQ(ended.status, 0) << ended.errors;
+    EXPECT_THAT(ended.output, HasSubstr("alias of pole 4 at 316.")) << rigidity;
+    // By the transcendental equation; poles of the fit are within 0.1 %.
+    const std::map<int, double> expected_Hz = {{1, 18.1440}, {2, 59.9815}, {3, 161.9332}};
+    for (const auto& reading : Json::parse(text_of("out.json"))["readings"]) {
+      for (const auto& root : reading["roots"]) {
+        if (root["feature"] != "pole" || root["order"].is_null()) continue;
+        const int order = root["order"].get<int>();
+        ASSERT_TRUE(expected_Hz.contains(order)) << rigidity;
+        const double off = root["frequency_Hz"].get<double>() / expected_Hz.at(order) - 1.0;
+        EXPECT_LT(std::abs(off), reading["method"] == "fit" ? 1e-3 : 0.07) << rigidity;
+      }
+    }
+    EXPECT_THAT(ended.output, testing::ContainsRegex("1 +fit +18\\.13")) << rigidity;
+  }
+}
+
+TEST_F(Identify, AFreeDecayIsIdentifiedAndDiagnosed) {
+  std::string csv = "time [s],torque [N m],hub_angle [rad],tip_acceleration [m/s^2]\n";
+  for (int k = 0; k < 4000; ++k) {
+    const double t = 0.002 * k;
+    const auto decay = [t](double f_Hz, double zeta) {
+      return std::exp(-zeta * 2.0 * M_PI * f_Hz * t) * std::cos(2.0 * M_PI * f_Hz * t);
+    };
+    const double tip = 5.0 * decay(2.9, 0.010) + decay(18.0, 0.012) + 1e-3 * ((k * 7919) % 13 - 6);
+    csv += std::to_string(t) + ",0,0.001," + std::to_string(tip) + "\n";
+  }
+  write("free.csv", csv);
+  write("arm.toml",
+        "[beam]\nlength = 0.43\nwidth = 0.02\nthickness = 0.0016\ndensity = 7800\n"
+        "youngs_modulus = 2.0e11\nyoungs_modulus_uncertainty = 0.3\n[hub]\ninertia = 2e-3\n");
+  const Ended made =
+      run({"import", "free.csv", "--initial", "free", "--arm", "arm.toml", "--out", "run"});
+  ASSERT_EQ(made.status, 0) << made.errors;
+  const Ended ended = run({"identify", "run/measurement.toml", "--json", "out.json"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
+  const Json json = Json::parse(text_of("out.json"));
+  EXPECT_EQ(json["state"], "identified");
+  EXPECT_EQ(json["runs"][0]["decay_begins_s"], 0.0);
+  ASSERT_EQ(json["readings"].size(), 1U);
+  const auto& roots = json["readings"][0]["roots"];
+  ASSERT_EQ(roots.size(), 2U);
+  EXPECT_NEAR(roots[0]["frequency_Hz"].get<double>(), 2.9, 0.003);
+  EXPECT_NEAR(roots[0]["damping_ratio"].get<double>(), 0.010, 0.0005);
+  EXPECT_NEAR(roots[1]["frequency_Hz"].get<double>(), 18.0, 0.02);
+  EXPECT_NEAR(roots[1]["damping_ratio"].get<double>(), 0.012, 0.0006);
+  const Ended diagnosed = run({"diagnose", "run/measurement.toml", "--effects", "none"});
+  EXPECT_EQ(diagnosed.status, 0) << diagnosed.errors;
 }
 
 }  // namespace

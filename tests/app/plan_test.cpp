@@ -1,5 +1,6 @@
 #include "tests/app/flexarm_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -58,6 +59,23 @@ TEST_F(PlanCommand, WorksAsItsHelpSays) {
   const Ended ended = run(example_in(help.output));
   EXPECT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(names_in(), testing::Contains("improved-plan.toml"));
+}
+
+TEST_F(PlanCommand, TakesPrbsSineAndStepAsExcitations) {
+  const std::string run_of =
+      "[[run]]\nid = \"{}\"\nkind = \"time\"\nsensors = [\"hub_angle\"]\nduration = 1.0\n"
+      "sample_time = 0.002\nexcitation = {{ kind = \"{}\", {} }}\n";
+  write("measurement-plan.toml",
+        fmt::format(fmt::runtime(run_of), "a", "prbs", "amplitude = 0.05, clock = 0.01") +
+            fmt::format(fmt::runtime(run_of), "b", "sine", "frequency = 3.0, start = 0.1") +
+            fmt::format(fmt::runtime(run_of), "c", "step", "amplitude = 0.02"));
+  const Ended ended = plan();
+  EXPECT_EQ(ended.status, 0) << ended.errors;
+  EXPECT_THAT(ended.output, HasSubstr("of 3 effects are detectable"));
+  write("measurement-plan.toml",
+        fmt::format(fmt::runtime(run_of), "a", "prbs", "amplitude = 0.05, frequency = 1.0"));
+  EXPECT_EQ(plan().status, 2);
+  EXPECT_THAT(plan().errors, HasSubstr("allowed: amplitude, clock, register, seed"));
 }
 
 TEST_F(PlanCommand, WritesABetterPlanThatItAccepts) {

@@ -58,7 +58,7 @@ TEST_F(SimulateLimits, AHeavilyDampedLinearArmIsSimulatedAtOnce) {
 TEST_F(SimulateLimits, AnEffectThatNeedsInnerStepsIsNamedWhereThereAreTooMany) {
   write_arm("hub_viscous_friction", "coefficient = 1e6");
   write("rig.toml", text_of("rig.toml") + "[effects.coulomb_friction]\ntorque = 0.01\n");
-  const Ended ended = run({"simulate", "rig.toml"});
+  const Ended ended = run({"simulate", "rig.toml", "--modes", "5"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_EQ(ended.output, "");
   EXPECT_THAT(ended.errors, StartsWith("bang-bang: effects.coulomb_friction: needs 1.18"));
@@ -150,7 +150,8 @@ TEST_F(SimulateLimits, OptionsThatWouldDoNothingAreRefused) {
 }
 
 TEST_F(SimulateLimits, ModesThatAModelDoesNotHaveAreSaid) {
-  const std::vector<std::string> fem = {"--formulation", "fem", "--elements", "1", "--degree", "3"};
+  const std::vector<std::string> fem = {"--formulation", "fem", "--elements", "1",
+                                        "--degree",      "3",   "--modes",    "5"};
   auto arguments = fem;
   arguments.insert(arguments.end(), {"--json", "out.json"});
   EXPECT_THAT(run_short(arguments).output,

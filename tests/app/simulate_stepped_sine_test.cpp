@@ -50,7 +50,7 @@ TEST_F(SteppedSine, IsARunOfTheMeasurementBesideOthers) {
   EXPECT_EQ(ended.errors, "");
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("2.8:2.9/11.8:11.9"), HasSubstr("step 0.05"), HasSubstr("rad/(N m)"),
-                    HasSubstr("\nEnergy balance: "), Not(HasSubstr("note:")),
+                    HasSubstr("\nEnergy balance: "), Not(HasSubstr("the response changed")),
                     HasSubstr("flexarm identify out/measurement.toml")));
   EXPECT_THAT(names_in("out"),
               ElementsAre("arm.toml", "bang-bang.csv", "bang-bang.svg", "fine-hub_angle.svg",
@@ -150,6 +150,7 @@ TEST_F(SteppedSine, BadInputIsOneLineAndStatusTwo) {
   expect_refused(run({"simulate", "--excitation", "stepped-sin"}),
                  "--excitation stepped-sin: excitation stepped-sin: unknown (did you mean "
                  "stepped-sine?); allowed: bang-bang, step, random, multisine, chirp, staircase, "
+                 "prbs, sine, "
                  "stepped-sine");
   expect_refused(run({"simulate", "--excitation", "stepped-sine", "--duration", "3"}),
                  "--duration: not with a stepped sine");

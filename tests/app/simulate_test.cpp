@@ -8,8 +8,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace flexarm::testing_app {
 namespace {
@@ -28,6 +32,14 @@ constexpr const char* kRigWithFriction =
     "viscous_friction = 0.002\n[damping]\nkelvin_voigt = 1.2e-4\n"
     "[effects.coulomb_friction]\ntorque = 0.01\n[effects.torque_gain]\nfactor = 0.9\n";
 
+/// The text with single blanks in place of line ends and indentation.
+std::string in_one_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
 class Simulate : public Flexarm {
  protected:
   /// The same with a short record, to be quick.
@@ -44,10 +56,11 @@ TEST_F(Simulate, WithoutArgumentsItIsThePapersArmAndABangBang) {
   const Ended ended = run({"simulate"});
   EXPECT_EQ(ended.status, 0);
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("aluminium link"), HasSubstr("\nby exact_tf, 5 flex"),
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("aluminium link"), HasSubstr(" flexible modes; "),
+                                  HasSubstr(" flexible modes chosen; estimated error 1.0e-04"),
                                   HasSubstr("bang-bang, amplitude 0.3 N"),
                                   HasSubstr("tip_acceleration"), HasSubstr("\nEnergy balance: "),
-                                  Not(HasSubstr("note:")), HasSubstr("\nnext: ")));
+                                  HasSubstr("\nnote: modes up to "), HasSubstr("\nnext: ")));
   EXPECT_TRUE(names_in().empty());
 }
 
@@ -166,11 +179,78 @@ TEST_F(Simulate, TheStepErrorIsToldOnRequest) {
   }
 }
 
-TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaid) {
-  const Ended ended = run_short({"--modes", "8"});
+TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaidOnce) {
+  const Ended ended =
+      run_short({"--modes", "8", "--excitation", "bang-bang", "--excitation", "step"});
   EXPECT_EQ(ended.status, 0) << ended.errors;
+  const std::string note = "note: modes up to ";
+  const auto first = ended.output.find(note);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(ended.output.find(note, first + note.size()), std::string::npos);
+}
+
+TEST_F(Simulate, TheSamplingNoteSaysAPeriodThatShowsAllVisibleModes) {
+  for (const char* excitation : {"bang-bang", "step", "random:to=40", "chirp", "prbs", "sine"}) {
+    const std::vector<std::string> arguments = {"simulate",   "--excitation", excitation,
+                                                "--duration", "0.2",          "--period"};
+    const auto with_period = [&](const std::string& period) {
+      auto all = arguments;
+      all.push_back(period);
+      return run(all).output;
+    };
+    const std::string coarse = with_period("0.01");
+    const std::string words = "a sampling period (--period) of ";
+    const std::string text = in_one_line(coarse);
+    const auto at = text.find(words);
+    ASSERT_NE(at, std::string::npos) << excitation << coarse;
+    const auto from = at + words.size();
+    const std::string period = text.substr(from, text.find(' ', from) - from);
+    EXPECT_THAT(with_period(period), Not(HasSubstr("note: modes up to"))) << excitation << period;
+  }
+}
+
+TEST_F(Simulate, APrbsASineAndAStepAreRuns) {
+  const Ended ended = run_short({"--excitation", "prbs:amplitude=0.02,clock=0.01,register=5",
+                                 "--excitation", "sine:amplitude=0.03,frequency=2,offset=0.01",
+                                 "--excitation", "step:amplitude=0.04,start=0.1", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.errors;
   EXPECT_THAT(ended.output,
-              AllOf(HasSubstr("note: bang-bang: highest mode"), HasSubstr("the mode is aliased")));
+              AllOf(HasSubstr("prbs, amplitude 0.02 N m, clock 0.01 s, register 5, seed 1"),
+                    HasSubstr("sine, amplitude 0.03 N m, frequency 2 Hz, offset 0.01 N m")));
+  const auto prbs = record("out/prbs.csv").torque_N_m;
+  for (std::size_t k = 0; k < prbs.size(); ++k) {
+    ASSERT_EQ(std::abs(prbs[k]), 0.02);
+    ASSERT_EQ(prbs[k], prbs[k - k % 5]);
+  }
+  const auto sine = record("out/sine.csv").torque_N_m;
+  EXPECT_NEAR(*std::ranges::max_element(sine), 0.04, 1e-4);
+  EXPECT_NEAR(*std::ranges::min_element(sine), -0.02, 1e-4);
+  const auto step = record("out/step.csv").torque_N_m;
+  EXPECT_EQ(step[49], 0.0);
+  EXPECT_EQ(step[50], 0.04);
+  EXPECT_EQ(run({"diagnose", "out/measurement.toml", "--effects", "torque_gain"}).status, 0);
+  EXPECT_THAT(run_short({"--excitation", "prbs:register=99"}).errors,
+              HasSubstr("prbs.register = 99: must be from 2 to 24"));
+  EXPECT_THAT(run_short({"--excitation", "sine:frequency=900"}).errors,
+              HasSubstr("must be above 0 and at most the Nyquist frequency, 250 Hz"));
+}
+
+TEST_F(Simulate, GivenModesAreSaidToTruncateWithTheirError) {
+  const Ended given = run_short({"--modes", "5", "--json", "out.json"});
+  EXPECT_THAT(given.output, HasSubstr("\nTruncation: 5 flexible modes given; estimated error"));
+  EXPECT_THAT(in_one_line(given.output), HasSubstr("the model is truncated"));
+  const Json truncation = Json::parse(text_of("out.json"))["truncation"];
+  EXPECT_FALSE(truncation["chosen"].get<bool>());
+  EXPECT_EQ(truncation["modes"], 5);
+  EXPECT_EQ(truncation["errors"].size(), 3U);
+  EXPECT_GT(truncation["errors"][2]["error"].get<double>(), truncation["tolerance"].get<double>());
+  write("rig.toml", kRigWithFriction);
+  EXPECT_EQ(run_short({"rig.toml", "--json", "out.json"}).status, 0);
+  const Json chosen = Json::parse(text_of("out.json"))["truncation"];
+  EXPECT_TRUE(chosen["chosen"].get<bool>());
+  for (const Json& sensor : chosen["errors"]) {
+    EXPECT_LE(sensor["error"].get<double>(), chosen["tolerance"].get<double>());
+  }
 }
 
 TEST_F(Simulate, EnergyIsBalanced) {
@@ -218,7 +298,7 @@ TEST_F(Simulate, BadInputIsOneLineAndStatusTwo) {
                  "--duration: only with --excitation; a torque file has its own");
   expect_refused(run({"simulate", "--excitation", "randm"}),
                  "--excitation randm: excitation randm: unknown (did you mean random?); allowed: "
-                 "bang-bang, step, random, multisine, chirp, staircase, stepped-sine");
+                 "bang-bang, step, random, multisine, chirp, staircase, prbs, sine, stepped-sine");
   expect_refused(
       run({"simulate", "--excitation", "random:rsm=1"}),
       "--excitation random:rsm=1: random.rsm: unknown (did you mean rms?); allowed: rms, "

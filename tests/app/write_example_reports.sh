@@ -8,8 +8,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-run() {
-  "$program" "$@" >output 2>errors || { cat errors >&2; exit 1; }
+run() {  # a measurement that differs from the model ends compare with status 1
+  "$program" "$@" >output 2>errors || [[ $? -eq 1 && $1 == compare ]] || { cat errors >&2; exit 1; }
   case $* in
     *--report*) tail -n 1 output | grep -qx 'wrote .*\.html' || { echo "no last line: $*" >&2; exit 1; } ;;
   esac

@@ -151,7 +151,7 @@ TEST_F(WrongValues, AreNamedByOptionOrFileWithWhatIsAllowed) {
       // Folders and files of another kind.
       {{"compare", "--measured", "short"}, "short: is a folder; must be a file"},
       {{"modes", "short"}, "short: is a folder; must be a file"},
-      {{"modes", "log.csv"}, "log.csv:1: not TOML"},
+      {{"modes", "log.csv"}, "log.csv: is a table of numbers, as a log has; must be an arm file"},
       {{"paper", "22", "--update", "short"}, "short: is a folder; must be a file"},
       {{"modes", "--json", "short"}, "short: cannot be written: is a folder"},
   };

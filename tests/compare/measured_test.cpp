@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace flexarm::compare {
@@ -103,17 +104,31 @@ TEST(Measured, EveryModelIsOffBySoManyStandardDeviations) {
   EXPECT_TRUE(std::isnan(without.combined_deviation));
 }
 
-TEST(Measured, DampingRatiosAreThoseOfTheMode) {
+TEST(Measured, AreComparedWithDampedRoots) {
   Comparison comparison = model();
-  comparison.modes.assign(1, std::vector<arm::Mode>(2));
-  comparison.modes[0][0].damping_ratio = 0.02;
-  comparison.modes[0][1].damping_ratio = 0.05;
-  auto entry = measured_at(std::nullopt, Feature::pole, 2, 32.0);
-  entry.damping_ratio = 0.06;
-  entry.damping_ratio_std = 0.005;
-  const auto row = beside_model({entry}, comparison).at(0);
-  EXPECT_EQ(row.model_damping_ratio, 0.05);
+  for (RootRow& row : comparison.roots) row.damped.resize(2);
+  // |s| is that of the undamped root for neither.
+  const std::complex<double> s = 31.0 * std::polar(2.0 * std::numbers::pi, std::acos(-0.05));
+  comparison.roots[1].damped[0] = arm::PolePair{s, std::conj(s)};
+  comparison.roots[2].damped[0] = arm::PolePair{-10.0, -40.0};
+  auto pole = measured_at(std::nullopt, Feature::pole, 2, 31.0);
+  pole.damping_ratio = 0.06;
+  pole.damping_ratio_std = 0.005;
+  const auto row = beside_model({pole}, comparison).at(0);
+  EXPECT_NEAR(row.model_frequency_Hz.value(), 31.0, 1e-12);
+  EXPECT_NEAR(row.undamped_Hz.value(), 32.0, 1e-12);
+  EXPECT_NEAR(row.error_percent, 0.0, 1e-12);
+  EXPECT_NEAR(row.model_damping_ratio.value(), 0.05, 1e-12);
   EXPECT_NEAR(row.damping_deviation, 2.0, 1e-12);
+  // An overdamped zero: the geometric mean of both, and more than critical damping.
+  auto zero = measured_at(kHubAngle, Feature::zero, 1, 3.0);
+  const auto overdamped = beside_model({zero}, comparison).at(0);
+  EXPECT_NEAR(overdamped.model_frequency_Hz.value(), 20.0 / (2.0 * std::numbers::pi), 1e-12);
+  EXPECT_NEAR(overdamped.model_damping_ratio.value(), 1.25, 1e-12);
+  // A root that was not found with damping is none to compare with.
+  EXPECT_FALSE(beside_model({measured_at(std::nullopt, Feature::pole, 1, 12.0)}, comparison)
+                   .at(0)
+                   .model_frequency_Hz);
 }
 
 /// Frequencies are proportional to the root of the rigidity: of 4 % they have 2 %.

@@ -1,5 +1,5 @@
 // Unknown initial states and their prior.
-#include "diagnose/predictors/initial_state.hpp"
+#include "compare/initial_state.hpp"
 
 #include "diagnose/predictors/filtered_run.hpp"
 #include "response/formulation_maker.hpp"
@@ -14,6 +14,9 @@
 namespace flexarm::diagnose {
 namespace {
 
+using compare::InitialStateEstimator;
+using compare::kLeastShown;
+using compare::prior_of_state;
 using Eigen::Index;
 
 /// Two states that decay, of which readings show the sum.

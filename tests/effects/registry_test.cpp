@@ -120,10 +120,20 @@ TEST(Registry, TheSizeOfACoordinateIsThatOfItsValueByTheDerivative) {
     const auto torque = [&](double place) { return from_zero.value(place); };
     EXPECT_NEAR(from_zero.size(at) * change(torque) / torque(at), 1.0, kOfQuotients) << at;
     const auto compliance = [&](double place) { return 1.0 / from_infinity.value(place); };
-    EXPECT_NEAR(from_infinity.size(at) * change(compliance) / compliance(at), 1.0, kOfQuotients) << at;
+    EXPECT_NEAR(from_infinity.size(at) * change(compliance) / compliance(at), 1.0, kOfQuotients)
+        << at;
     const auto time = [&](double place) { return logarithmic.value(place); };
     EXPECT_NEAR(logarithmic.size(at) * change(time) / time(at), 1.0, kOfQuotients) << at;
   }
+  const SearchedParameter about_zero{"delay", -0.004, 1.0, Spacing::about_zero};
+  for (const double at : {0.05, 0.15, 0.4, 0.9}) {
+    const double slope =
+        (about_zero.value(at + kStep) - about_zero.value(at - kStep)) / (2.0 * kStep);
+    EXPECT_NEAR(about_zero.size(at) * slope / std::abs(about_zero.value(at)), 1.0, kOfQuotients);
+    EXPECT_NEAR(about_zero.coordinate(about_zero.value(at)), at, kOfQuotients);
+  }
+  EXPECT_NEAR(about_zero.value(0.0), -0.004, 1e-12);
+  EXPECT_NEAR(about_zero.value(1.0), 1.0, 1e-9);
   const SearchedParameter with_neutral{"factor", 0.5, 2.5, Spacing::linear, false, 1.0};
   EXPECT_DOUBLE_EQ(with_neutral.size(0.75), 0.5);
 }

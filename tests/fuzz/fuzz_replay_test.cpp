@@ -26,8 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Six seconds a reader or less. As many as scripts/fuzz executes in 5 to 120 s under sanitizers.
-constexpr int kMutatedInputs = 100000;
 constexpr std::uint64_t kRandomSeed = 20261127;
 
 std::vector<fs::path> files_in(const char* folder, const std::string& reader) {
@@ -63,7 +61,7 @@ TEST_P(FuzzReplay, MutatedSeeds) {
   std::vector<std::string> seeds;
   for (const auto& file : files_in("seeds", reader.name)) seeds.push_back(bytes_of(file));
   Mutator mutator(std::move(seeds), kRandomSeed);
-  for (int k = 0; k < kMutatedInputs; ++k) {
+  for (int k = 0; k < reader.mutated_inputs; ++k) {
     const std::string input = mutator.next();
     try {
       reader.read(input);

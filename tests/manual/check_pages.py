@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Runs the commands of pages of the manual and compares what they print with the pages.
 
-Each page runs in an empty folder that has `data` of the repository. Every number of its prose must
+Each page runs in an empty folder that has `data` of the repository, and nothing but what the page
+shows is run. Every number of its prose must
 be in a command, an output or a file of the page, or be declared (page.py says how).
 
 Usage: check_pages.py --program PATH --source ROOT [--update] PAGE ...
@@ -48,7 +49,7 @@ def update(page: Page, printed: dict[int, list[str]]) -> None:
     lines = page.path.read_text(encoding="utf-8").splitlines()
     for command in sorted((step for step in page.steps if isinstance(step, Command)),
                           key=lambda step: -step.line):
-        if command.output is None or any("…" in line or line == "..." for line in command.output):
+        if any("…" in line or line == "..." for line in command.output):
             continue
         begin = command.line + command.text.count("\n")
         new = list(printed[command.line])
@@ -76,7 +77,7 @@ def check(page: Page, source: Path, program: Path, renew: bool) -> list[str]:
             place = f"{page.path}:{step.line}: {step.text}"
             if status != step.status:
                 wrong.append(f"{place}: status {status}, page: {step.status}\n  " + "\n  ".join(lines[-5:]))
-            if step.output is not None and (difference := first_difference(step.output, lines)):
+            if difference := first_difference(step.output, lines):
                 wrong.append(f"{place}: {difference}")
     if renew:
         update(page, printed)

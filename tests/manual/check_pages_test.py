@@ -46,7 +46,7 @@ class Pages(unittest.TestCase):
                 capture_output=True, text=True, check=False)
 
     def test_a_page_that_is_right(self):
-        ended = self.check("<!-- file: a.txt -->\n```\n3.52\n```\nIt is 3.5.\n```console\n$ cat a.txt\n3.52\n```\n")
+        ended = self.check("Write `a.txt`:\n\n<!-- file: a.txt -->\n```\n3.52\n```\nIt is 3.5.\n```console\n$ cat a.txt\n3.52\n```\n")
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
 
     def test_a_wrong_output(self):
@@ -63,6 +63,17 @@ class Pages(unittest.TestCase):
         self.assertEqual(ended.returncode, 1)
         self.assertIn("page.md:1: 11.9", ended.stderr)
         self.assertEqual(self.check("<!-- numbers: 11.9 -->\nThe pole is at 11.9 Hz.\n").returncode, 0)
+
+    def test_a_command_that_a_reader_does_not_see(self):
+        for hidden in ["run: touch a", "flexarm modes", "$ touch a"]:
+            ended = self.check(f"<!-- {hidden} -->\n```console\n$ true\n```\n")
+            self.assertNotEqual(ended.returncode, 0)
+            self.assertIn("page.md:1: a command that a reader does not see", ended.stderr)
+
+    def test_a_file_whose_name_a_reader_does_not_see(self):
+        ended = self.check("Write this:\n\n<!-- file: a.txt -->\n```\n3\n```\n")
+        self.assertNotEqual(ended.returncode, 0)
+        self.assertIn("page.md:4: no text above the file names `a.txt`", ended.stderr)
 
     def test_a_block_without_an_end(self):
         self.assertNotEqual(self.check("```console\n$ true\n").returncode, 0)

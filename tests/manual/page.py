@@ -5,10 +5,11 @@ A block ```console has commands, each after "$ ", and below each the output that
 A last line "[status 1]" is the exit status where it is not 0.
 
 An HTML comment before a block, alone in its line, says more:
-  <!-- file: rig.toml -->       the block is the content of this file
+  <!-- file: rig.toml -->       the block is the content of this file; the text above it names it
   <!-- not run: REASON -->      the block is not run
   <!-- numbers: 0.3 0.025 -->   numbers of the prose that no command prints, such as readings
-  <!-- run: COMMAND -->         a command that the reader does not see
+
+Nothing else that such a comment holds is run: what a reader does not see, he cannot repeat.
 """
 
 import re
@@ -20,7 +21,7 @@ from pathlib import Path
 class Command:
     line: int  # of the page, from 1
     text: str
-    output: list[str] | None  # None: not compared
+    output: list[str]
     status: int = 0
 
 
@@ -38,7 +39,9 @@ class Page:
     numbers: list[str] = field(default_factory=list)  # allowed in the prose
 
 
-_COMMENT = re.compile(r"^<!-- (file|not run|numbers|run): (.*) -->$")
+_COMMENT = re.compile(r"^<!-- (file|not run|numbers): (.*) -->$")
+_HIDDEN = re.compile(r"^<!--.*(run:|flexarm |\$ )")
+_LINES_ABOVE_A_FILE = 4
 _FENCE = re.compile(r"^(```+)\s*(\S*)")
 _STATUS = re.compile(r"^\[status (\d+)\]$")
 
@@ -71,11 +74,11 @@ def read_page(path: Path) -> Page:
             key, value = comment.groups()
             if key == "numbers":
                 page.numbers += value.split()
-            elif key == "run":
-                page.steps.append(Command(at, value, None))
             else:
                 said[key] = value
             continue
+        if _HIDDEN.match(line):
+            raise ValueError(f"{path}:{at}: a command that a reader does not see")
         fence = _FENCE.match(line)
         if not fence:
             page.prose.append((at, line))
@@ -88,6 +91,9 @@ def read_page(path: Path) -> Page:
         block = lines[first:at]
         at += 1
         if "file" in said:
+            above = [text for number, text in page.prose if number >= first - 1 - _LINES_ABOVE_A_FILE]
+            if not any(f"`{said['file']}`" in text for text in above):
+                raise ValueError(f"{path}:{first}: no text above the file names `{said['file']}`")
             page.steps.append(File(said["file"], "\n".join(block) + "\n"))
         elif fence[2] == "console" and "not run" not in said:
             page.steps += _commands(first + 1, block, path)

@@ -124,5 +124,22 @@ TEST(ResidualCorrelation, OfAConstantOrNothingIsZero) {
   EXPECT_EQ(residual_correlation(white(3, 1), {}, 25).greatest_lag, 2U);
 }
 
+TEST(LjungBox, OfWhiteNoiseHasAsManyDegreesOfFreedomAsLags) {
+  constexpr int kLags = 20;
+  constexpr int kSeeds = 40;
+  double sum = 0.0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) sum += ljung_box(white(500, seed), kLags);
+  // Mean 20 and variance 40 each: within four deviations of the mean of all.
+  EXPECT_NEAR(sum / kSeeds, kLags, 4.0 * std::sqrt(2.0 * kLags / kSeeds));
+}
+
+TEST(LjungBox, OfAConstantIsLargeOfZerosZeroAndOfNaNNaN) {
+  EXPECT_GT(ljung_box(std::vector(100, 0.5), 20), 1000.0);
+  EXPECT_EQ(ljung_box(std::vector(100, 0.0), 20), 0.0);
+  std::vector<double> values = white(100, 1);
+  values[50] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(ljung_box(values, 20)));
+}
+
 }  // namespace
 }  // namespace flexarm::measured

@@ -1,10 +1,12 @@
 #include "arm/sensor.hpp"
 #include "measured/checks/data_check.hpp"
+#include "measured/checks/data_check_hum_line.hpp"
 #include "tests/measured/data_check_cases.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -37,6 +39,19 @@ TEST_P(HumOfAChannel, IsThatOfTheOneWhichNoOtherExplains) {
     add_hum(values, run.record.time_s, 0.3);
     EXPECT_THAT(channels_with_hum(run), testing::ElementsAre(arm::to_string(sensor)))
         << run.description;
+  }
+}
+
+// One column is by the sum of a geometric series, three are by summing over the samples.
+TEST(HumBand, LinesOfAWaveAreTheirSumsOverTheSamples) {
+  constexpr double kSummed = 1e-9;
+  for (const std::size_t samples : {4000U, 4001U}) {
+    const HumBand band(samples, 1e-3, 50.0);
+    for (const double frequency_Hz : {49.9, 49.99987, 50.0, 50.0 + 1.0 / (1e-3 * 4000.0), 50.07}) {
+      const BandLines summed = band.of_wave(frequency_Hz, 1);
+      const BandLines made = band.of_wave(frequency_Hz, 0);
+      EXPECT_LT((made - summed.col(0)).norm(), kSummed * summed.col(0).norm()) << frequency_Hz;
+    }
   }
 }
 

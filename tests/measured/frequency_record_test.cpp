@@ -90,11 +90,11 @@ TEST(FrequencyRecord, WhatCannotBeReadBackIsNotWritten) {
             "per sensor");
   EXPECT_EQ(error_of({kHubAngle, {1.0}, {1.0}, {1.5}}),
             "coherence = 1.5 of hub_angle at 1 Hz: must be above 0 and 1 or less, or unknown");
-  EXPECT_THROW(format_frequency_record({}), std::invalid_argument);
-  EXPECT_THROW(format_frequency_record({{{kHubAngle, {}, {}, {}}}}), std::invalid_argument);
-  EXPECT_THROW(format_frequency_record({{{kHubAngle, {1.0}, {1.0}, {}}}}), std::invalid_argument);
+  EXPECT_THROW(format_frequency_record({}), arm::InputError);
+  EXPECT_THROW(format_frequency_record({{{kHubAngle, {}, {}, {}}}}), arm::InputError);
+  EXPECT_THROW(format_frequency_record({{{kHubAngle, {1.0}, {1.0}, {}}}}), arm::InputError);
   const FrequencyChannel channel{kHubAngle, {1.0}, {1.0}, {1.0}};
-  EXPECT_THROW(format_frequency_record({{channel, channel}}), std::invalid_argument);
+  EXPECT_THROW(format_frequency_record({{channel, channel}}), arm::InputError);
 }
 
 TEST(FrequencyRecord, BytesAtRandomGiveARecordOrOneLine) {

@@ -116,7 +116,7 @@ TEST(TimeRecord, TimesRoundedToFourDecimalsAreEven) {
 }
 
 TEST(TimeRecord, WhatCannotBeReadBackIsNotWritten) {
-  EXPECT_THROW(format_time_record({{0.0, 1.0}, {0.0}, {}}), std::invalid_argument);
+  EXPECT_THROW(format_time_record({{0.0, 1.0}, {0.0}, {}}), arm::InputError);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   try {
     format_time_record({{0.0, 1.0}, {0.0, 0.0}, {{kHubAngle, {0.0, nan}}}});

@@ -33,7 +33,7 @@ class AgainstSciPy(unittest.TestCase):
             "multisine:rms=0.03,to=40", duration_s=2.0, sample_time_s=1e-3
         )
         sensors = ["hub_angle", "hub_velocity", "tip_acceleration"]
-        run = flexarm.simulate(damped(), torque, sample_time_s=1e-3, sensors=sensors, hold=hold)
+        run = flexarm.simulate(damped(), torque, sample_time_s=1e-3, sensors=sensors, hold=hold, modes=5)
         system = flexarm.ExactTransferFunction(damped()).state_space(
             sensors, modes=5, static_correction=False
         )
@@ -55,6 +55,24 @@ class AgainstSciPy(unittest.TestCase):
         for i, sensor in enumerate(run.sensors):
             scale = np.abs(y[:, i]).max()
             np.testing.assert_allclose(run[sensor], y[:, i], rtol=0, atol=STEPPING_ERROR * scale)
+
+
+class Truncation(unittest.TestCase):
+    TOLERANCE = 1e-4
+
+    def test_the_modes_of_a_simulation_are_chosen_and_its_errors_stated(self):
+        excitation = "multisine:rms=0.03,to=40"
+        chosen = flexarm.simulate(damped(), excitation, duration_s=1.0, sample_time_s=1e-3)
+        self.assertEqual(len(chosen.truncation_errors), len(chosen.sensors))
+        self.assertLessEqual(max(chosen.truncation_errors), self.TOLERANCE)
+        few = flexarm.simulate(damped(), excitation, duration_s=1.0, sample_time_s=1e-3, modes=2)
+        self.assertEqual(few.modes, 2)
+        self.assertGreater(max(few.truncation_errors), self.TOLERANCE)
+
+    def test_the_modes_of_a_state_space_are_chosen_and_its_errors_stated(self):
+        model = flexarm.ExactTransferFunction(damped())
+        self.assertLessEqual(max(model.state_space().truncation_errors), self.TOLERANCE)
+        self.assertGreater(max(model.state_space(modes=2).truncation_errors), self.TOLERANCE)
 
 
 class Runs(unittest.TestCase):

@@ -23,8 +23,8 @@ std::string error_of(const std::function<void()>& action) {
 }
 
 TEST(ExcitationKeys, EveryExcitationGoesByItsName) {
-  EXPECT_THAT(excitation_names(), ElementsAre("bang-bang", "step", "random", "multisine",
-                                              "chirp", "staircase"));
+  EXPECT_THAT(excitation_names(), ElementsAre("bang-bang", "step", "random", "multisine", "chirp",
+                                              "staircase", "prbs", "sine"));
   for (const auto& name_of_it : excitation_names()) {
     EXPECT_EQ(name(excitation_of(name_of_it)), name_of_it);
   }
@@ -62,7 +62,7 @@ TEST(ExcitationKeys, EachReachesItsMember) {
 TEST(ExcitationKeys, MistakesAreOneLineWithARemedy) {
   EXPECT_EQ(error_of([] { excitation_of("chrip"); }),
             "excitation chrip: unknown (did you mean chirp?); allowed: bang-bang, step, random, "
-            "multisine, chirp, staircase");
+            "multisine, chirp, staircase, prbs, sine");
   Excitation chirp = excitation_of("chirp");
   EXPECT_EQ(error_of([&] { set_key(chirp, "form", "1", {"id"}); }),
             "chirp.form: unknown (did you mean from?); allowed: amplitude, from, to, sweep, id");

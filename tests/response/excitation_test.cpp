@@ -87,6 +87,47 @@ TEST(Step, BeginsAtItsSample) {
   EXPECT_EQ(torque.back(), -0.05);
 }
 
+TEST(Prbs, HasTheGreatestPeriodOfItsRegister) {
+  for (int length = 2; length <= 16; ++length) {
+    const std::size_t period = (std::size_t{1} << static_cast<unsigned>(length)) - 1;
+    const Prbs signal{.amplitude_N_m = 0.2, .clock_s = 0.001, .register_length = length, .seed = 3};
+    const auto torque = sample(signal, {2 * period, 0.001}).torque_N_m;
+    // Of a sequence of the greatest period: one value of one sign more, and a cyclic
+    // autocorrelation of -1 for each shift, which no shorter period has.
+    double sum = 0.0;
+    for (std::size_t k = 0; k < period; ++k) {
+      ASSERT_EQ(std::abs(torque[k]), 0.2);
+      ASSERT_EQ(torque[k], torque[k + period]);
+      sum += torque[k] / 0.2;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-6) << length;
+    for (const std::size_t shift : {std::size_t{1}, period / 3, period / 2}) {
+      if (shift % period == 0) continue;
+      double product = 0.0;
+      for (std::size_t k = 0; k < period; ++k) product += torque[k] * torque[k + shift] / 0.04;
+      EXPECT_NEAR(product, -1.0, 1e-6) << length << ", " << shift;
+    }
+  }
+}
+
+TEST(Prbs, HoldsEachValueForItsClockAndBeginsBySeed) {
+  const auto torque = sample(Prbs{0.1, 0.01, 9, 1}, kGrid).torque_N_m;
+  for (std::size_t k = 0; k < torque.size(); ++k) ASSERT_EQ(torque[k], torque[k - k % 5]) << k;
+  EXPECT_EQ(torque, sample(Prbs{0.1, 0.01, 9, 1}, kGrid).torque_N_m);
+  EXPECT_NE(torque, sample(Prbs{0.1, 0.01, 9, 2}, kGrid).torque_N_m);
+  EXPECT_NEAR(rms_N_m(torque), 0.1, 1e-15);
+}
+
+TEST(Sine, HasItsFrequencyAmplitudeOffsetAndPhaseFromItsStartOn) {
+  const auto torque = sample(Sine{0.2, 3.0, 0.05, 0.4, 0.1}, kGrid).torque_N_m;
+  for (std::size_t k = 0; k < torque.size(); ++k) {
+    const double time_s = 0.002 * static_cast<double>(k) - 0.1;
+    const double expected =
+        k < 50 ? 0.0 : 0.05 + 0.2 * std::sin(2.0 * std::numbers::pi * 3.0 * time_s + 0.4);
+    ASSERT_NEAR(torque[k], expected, 1e-13) << k;
+  }
+}
+
 TEST(RandomNoise, IsBandLimitedAndOfItsRootMeanSquare) {
   const auto torque = sample(RandomNoise{0.05, 5.0, 60.0, 3}, kGrid).torque_N_m;
   const double rms = rms_N_m(torque);
@@ -266,6 +307,13 @@ const std::vector<Mistake> kMistakes = {
     {"DwellBelowASample", Staircase{0.1, 0.0005},
      "staircase.dwell = 0.0005 s: must be a sampling period, 0.002 s, or more"},
     {"NoLevel", Staircase{.levels = 0}, "staircase.levels = 0: must be 1 or more"},
+    {"ClockBelowASample", Prbs{.clock_s = 0.0005},
+     "prbs.clock = 0.0005 s: must be a sampling period, 0.002 s, or more"},
+    {"RegisterTooLong", Prbs{.register_length = 25}, "prbs.register = 25: must be from 2 to 24"},
+    {"SineAboveHalfTheSampling", Sine{.frequency_Hz = 251.0},
+     "sine.frequency = 251 Hz: must be above 0 and at most the Nyquist frequency, 250 Hz"},
+    {"SineAfterTheEnd", Sine{.start_s = 9.0},
+     "sine.start = 9 s: must be less than the duration, 8 s"},
     {"ChirpFromZero", Chirp{0.1, 0.0, 50.0}, "chirp.from = 0 Hz: must be a finite number above 0"},
 };
 
@@ -288,9 +336,10 @@ TEST(Excitation, APrimePeriodThatCannotBeTransformedIsRefusedWithOneThatCan) {
     sample(Multisine{0.1, 1.0, 50.0}, {10'000'019, 0.002});
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "multisine: a period of 10000019 samples has a prime factor too large for the FFT; "
-                 "use 10077696 samples, 20155.392 s");
+    EXPECT_STREQ(
+        error.what(),
+        "multisine: a period of 10000019 samples has a prime factor too large for the FFT; "
+        "use 10077696 samples, 20155.392 s");
   }
 }
 

@@ -55,6 +55,18 @@ TEST(TorquePath, LinearTorqueIsDelayedMultipliedAndClippedInThisOrder) {
   }
 }
 
+TEST(TorquePath, OfADelayBelowZeroLeadsItsSamplesAndEndsWithTheLast) {
+  const std::vector<double> torque = {1.0, 2.0, 3.0};
+  const TorquePath by_one({.delay_s = -1.0}, torque, 1.0, TorqueHold::zero);
+  EXPECT_EQ(at(by_one, 0.5), 2.0);
+  EXPECT_EQ(at(by_one, 1.5), 3.0);
+  EXPECT_EQ(at(by_one, 2.5), 3.0);
+  EXPECT_EQ(by_one.whole_parts(0).value(), (Eigen::MatrixXd(1, 3) << 2.0, 3.0, 3.0).finished());
+  const TorquePath linear({.delay_s = -0.75}, torque, 1.0, TorqueHold::first);
+  EXPECT_NEAR(at(linear, 0.5), 2.25, kChainRounding);
+  EXPECT_NEAR(at(linear, 1.9), 3.0, kChainRounding);
+}
+
 TEST(TorquePath, HeldTorqueBreaksWhereTheDelayedSampleBegins) {
   const std::vector<double> torque = {1.0, 2.0, 3.0};
   const TorquePath path({.delay_s = 0.25}, torque, 1.0, TorqueHold::zero);

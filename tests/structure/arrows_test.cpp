@@ -27,12 +27,14 @@ const std::map<std::string, Rooms>& allowed_arrows() {
     map["measured"] = {"arm"};
     map["response"] = {"arm", "exact_tf", "fem", "assumed_modes"};
     map["experiment"] = {"arm", "measured", "response"};
+    map["importing"] = {"arm", "measured", "experiment"};
     map["compare"] = {"arm", "effects", "exact_tf", "fem", "assumed_modes", "response", "measured"};
     map["diagnose"] = {"arm", "effects", "exact_tf", "response", "compare", "measured"};
     map["report"] = {"arm", "effects", "response", "experiment", "compare", "measured", "diagnose"};
     map["export"] = {"arm", "effects", "response", "compare", "measured", "diagnose"};
     map["app"] = {"arm",      "effects",    "exact_tf", "fem",      "assumed_modes", "measured",
-                  "response", "experiment", "compare",  "diagnose", "report",        "export"};
+                  "response", "experiment", "compare",  "diagnose", "report",        "export",
+                  "importing"};
     map["python"] = map["app"];
     return map;
   }();
@@ -117,6 +119,30 @@ TEST(Structure, EverySourceFolderIsARoomOfTheHouse) {
     if (!entry.is_directory() || name.starts_with(".") || not_rooms.contains(name)) continue;
     EXPECT_TRUE(allowed_arrows().contains(name)) << name << " is no room of the house";
   }
+}
+
+/// Boost's functions of distributions throw for NaN.
+TEST(Structure, OneFileAsksDistributionsForProbabilities) {
+  int asked = 0;
+  for (const auto& [room, targets] : allowed_arrows()) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(FLEXARM_SOURCE_DIR) / room)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      const bool may_ask = entry.path().filename() == "tail_probability.cpp";
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        for (const char* asks : {"boost::math::cdf", "boost::math::pdf", "boost::math::erfc(",
+                                 "boost::math::gamma_q(", "boost/math/statistics"}) {
+          if (line.find(asks) == std::string::npos) continue;
+          ++asked;
+          EXPECT_TRUE(may_ask) << entry.path() << ": " << line
+                               << ": use measured/spectra/tail_probability.hpp";
+        }
+      }
+    }
+  }
+  EXPECT_GT(asked, 0) << "the pattern matches nothing";
 }
 
 TEST(Structure, FilesStayReadableInOneSitting) {

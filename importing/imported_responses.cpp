@@ -1,0 +1,127 @@
+#include "importing/imported_responses.hpp"
+
+#include "arm/input_error.hpp"
+#include "measured/files/column_guess.hpp"
+#include "measured/files/column_lookup.hpp"
+#include "measured/files/column_name.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace flexarm::importing {
+
+namespace {
+
+using arm::InputError;
+using measured::ColumnLabel;
+using measured::ForeignFile;
+
+std::string response_names(const ForeignFile& file) {
+  std::vector<std::string> names;
+  for (const auto& response : file.responses) {
+    for (const auto column : response.columns) names.push_back(file.table.columns[column].name);
+  }
+  return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
+}
+
+/// Responses in columns are typed by any of these: each such name becomes that of the response.
+measured::ColumnMappings mappings_by_columns(const ForeignFile& file, const ColumnChoice& choice,
+                                             std::vector<std::string>& notes) {
+  auto columns = measured::labels_of(file.table);
+  const auto response_of = [&](std::size_t column) {
+    return std::ranges::find_if(file.responses, [&](const auto& response) {
+      return std::ranges::count(response.columns, column) > 0;
+    });
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const auto response = response_of(i);
+    columns[i].unit = response == file.responses.end() ? "" : response->unit;
+  }
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  auto mappings = choice.mappings(columns, notes);
+  for (auto& [quantity, mapping] : mappings) {
+    const auto response = response_of(*measured::column_place(names, mapping.name));
+    if (response == file.responses.end()) {
+      throw InputError(fmt::format("--column {}={}: no part of a response; those are in {}",
+                                   quantity, arm::shown(mapping.name), response_names(file)));
+    }
+    mapping.name = response->name;
+  }
+  return mappings;
+}
+
+/// The only response of a file that does not tell of what it is: by its unit, or that of the hub.
+void assume_sensor(const ForeignFile& file, measured::ColumnMappings& mappings,
+                   std::vector<std::string>& warnings) {
+  if (file.responses.size() != 1 || !mappings.empty()) return;
+  const auto& response = file.responses.front();
+  for (const char* sensor : {"hub_angle", "hub_velocity", "tip_acceleration"}) {
+    if (!measured::is_unit_of(sensor, response.unit)) continue;
+    const std::string unit(response.unit.empty() ? measured::si_unit_of(sensor)
+                                                 : std::string_view(response.unit));
+    mappings[sensor] = {response.name, unit, measured::scale_of_unit(sensor, response.unit)};
+    warnings.push_back(fmt::format(
+        "{} is taken as {} in {} per {}; if it is another, state it with --column 'SENSOR={}:UNIT'",
+        arm::shown(response.name), sensor, unit, response.per.empty() ? "N m" : response.per,
+        arm::shown(response.name)));
+    return;
+  }
+}
+
+}  // namespace
+
+void read_responses(const ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
+  if (choice.columns.is_for_signals() || choice.controller) {
+    throw InputError(
+        "--compute, --torque, --time-unit, --reference, --own-rate: only for time signals");
+  }
+  std::vector<ColumnLabel> responses;
+  for (const auto& response : file.responses) responses.push_back({response.name, response.unit});
+  measured::ColumnMappings typed;
+  if (file.responses.front().columns.empty()) {
+    typed = choice.columns.mappings(responses, imported.assumptions);
+  } else {
+    typed = mappings_by_columns(file, choice.columns, imported.assumptions);
+  }
+  auto to_guess = responses;
+  for (const auto place : choice.columns.left_out_places(responses)) {
+    to_guess[place].is_text = true;
+  }
+  auto guess = measured::guess_columns(to_guess, typed);
+  // Time and torque are no responses.
+  std::erase_if(guess.mappings,
+                [](const auto& entry) { return !measured::sensor_of(entry.first).has_value(); });
+  assume_sensor(file, guess.mappings, imported.warnings);
+  imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
+  imported.columns = std::move(guess.mappings);
+  const auto is_read = [&](const std::string& name) {
+    return std::ranges::any_of(imported.columns,
+                               [&](const auto& entry) { return entry.second.name == name; });
+  };
+  for (const auto& response : responses) {
+    if (!is_read(response.name)) imported.not_used.push_back(response.name);
+  }
+  imported.data = frequency_record_of(file, imported.columns, arm::shown(imported.file));
+}
+
+void take_typed_responses(ForeignFile& file, const FileChoice& choice) {
+  const auto parts = choice.columns.response_parts(measured::labels_of(file.table));
+  if (parts.empty()) return;
+  auto made = measured::responses_of(file.table, parts);
+  file.responses = std::move(made.responses);
+  for (auto& response : file.responses) {
+    if (response.unit.empty()) response.unit = measured::split_column_name(response.name).unit;
+  }
+  std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
+}
+
+}  // namespace flexarm::importing

@@ -1,0 +1,169 @@
+#include "importing/joined_files.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/read_word.hpp"
+#include "measured/files/column_lookup.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace flexarm::importing {
+
+namespace {
+
+using arm::InputError;
+using measured::ColumnLabel;
+using measured::ForeignColumn;
+using measured::JoinGrid;
+using measured::TimedSignals;
+
+bool is_of_time(const std::string& typed) {
+  return typed.starts_with("time=") || typed.starts_with("time ");
+}
+
+std::vector<ColumnLabel> labels_of(const std::vector<ForeignColumn>& columns) {
+  std::vector<ColumnLabel> labels;
+  for (const auto& column : columns) {
+    labels.push_back({column.name, column.unit, column.is_text(), column.is_stamp, column.path});
+  }
+  return labels;
+}
+
+/// The column that holds the time of a file, and its unit.
+measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const FileChoice& choice,
+                                std::vector<std::string>& notes) {
+  ColumnChoice of_time;
+  for (const auto& typed : choice.columns.typed) {
+    if (is_of_time(typed)) of_time.typed.push_back(typed);
+  }
+  of_time.time_unit = choice.columns.time_unit;
+  auto guess = measured::guess_columns(labels, of_time.mappings(labels, notes));
+  of_time.set_time_unit(guess.mappings);
+  const auto time = guess.mappings.find("time");
+  if (time != guess.mappings.end()) return time->second;
+  std::vector<std::string> names;
+  for (const auto& label : labels) names.push_back(label.name);
+  throw InputError(
+      fmt::format("time: column not recognised; columns: {}; each file that is joined needs one: "
+                  "assign it with "
+                  "--column time=NAME:UNIT",
+                  arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+}
+
+void require_increasing(const std::vector<double>& times_s) {
+  for (std::size_t k = 0; k < times_s.size(); ++k) {
+    const bool is_fine = std::isfinite(times_s[k]) && (k == 0 || times_s[k] > times_s[k - 1]);
+    if (is_fine) continue;
+    throw InputError(
+        fmt::format("time = {} s in row {}: --join needs times that increase from row "
+                    "to row",
+                    times_s[k], k + 1));
+  }
+  if (times_s.size() < 2) throw InputError("--join needs two samples or more");
+}
+
+/// A file as signals over its time in s.
+TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
+                           std::vector<std::string>& assumptions) {
+  auto& columns = read.contents.table.columns;
+  const std::string name = arm::shown(read.file);
+  try {
+    if (!read.contents.responses.empty() || columns.size() < 2) {
+      throw InputError("--join needs a time and a signal or more in each file");
+    }
+    const auto labels = labels_of(columns);
+    const auto mapping = time_of(labels, choice, assumptions);
+    std::vector<std::string> names;
+    for (const auto& label : labels) names.push_back(label.name);
+    const std::size_t place = measured::column_place(names, mapping.name).value();
+    TimedSignals signals{name, std::move(columns[place].values), {}};
+    const auto unit = measured::unit_of("time", mapping.unit).value_or(measured::Unit{});
+    for (auto& time : signals.times_s) time = unit.to_si(time * mapping.scale);
+    require_increasing(signals.times_s);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (i == place || columns[i].is_text()) continue;
+      if (columns[i].values.size() != signals.times_s.size()) {
+        assumptions.push_back(fmt::format("{}: {} left out: not as long as the time", name,
+                                          arm::shown(columns[i].name)));
+        continue;
+      }
+      signals.columns.push_back(std::move(columns[i]));
+    }
+    for (const auto& sentence : read.contents.table.assumptions) {
+      assumptions.push_back(fmt::format("{}: {}", name, sentence));
+    }
+    assumptions.push_back(
+        fmt::format("{}: time is column {} in {}", name, arm::shown(mapping.name), mapping.unit));
+    return signals;
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).starts_with(name + ":")) throw;
+    throw arm::located(error, name, 0);
+  }
+}
+
+/// The columns that make the torque, which is held between samples.
+std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
+                                     const ColumnChoice& choice) {
+  std::vector<ForeignColumn> columns = {{"time [s]", "s", {}}};
+  for (const auto& file : files) {
+    for (const auto& column : file.columns) columns.push_back({column.name, column.unit, {}});
+  }
+  const auto labels = labels_of(columns);
+  std::vector<std::string> notes;  // those of the joined table are the same
+  const auto guess = measured::guess_columns(labels, choice.mappings(labels, notes));
+  const auto torque = guess.mappings.find("torque");
+  std::set<std::string> held;
+  if (torque == guess.mappings.end()) return held;
+  std::vector<std::string> names;
+  for (const auto& label : labels) names.push_back(label.name);
+  for (const auto place : measured::places_used({*torque}, names)) held.insert(names[place]);
+  return held;
+}
+
+}  // namespace
+
+ImportedFile import_joined(const std::vector<std::string>& files, const FileChoice& choice,
+                           const JoinChoice& join, measured::TorqueHold hold) {
+  const auto grid = arm::read_word("--join-grid", join.grid,
+                                   std::array{JoinGrid::same, JoinGrid::first, JoinGrid::coarsest});
+  if (files.size() < 2) throw InputError("--join: needs two files or more");
+  if (choice.period_s) {
+    throw InputError("--period: not together with --join; each file has times of its own");
+  }
+  std::vector<TimedSignals> signals;
+  std::vector<std::string> assumptions;
+  std::vector<std::string> names;
+  std::set<std::string> formats;
+  for (const auto& file : files) {
+    ReadFile read = read_file(file, choice);
+    formats.insert(read.format);
+    names.push_back(file);
+    signals.push_back(timed_signals(std::move(read), choice, assumptions));
+  }
+  measured::name_joined_columns(signals);
+
+  FileChoice of_joined = choice;
+  std::erase_if(of_joined.columns.typed, is_of_time);
+  of_joined.columns.time_unit.clear();
+  const auto held = hold == measured::TorqueHold::zero ? torque_columns(signals, of_joined.columns)
+                                                       : std::set<std::string>();
+  ReadFile joined{fmt::format("{}", fmt::join(names, " + ")),
+                  fmt::format("{}, joined", fmt::join(formats, ", ")),
+                  {}};
+  joined.contents.table = measured::joined_table(
+      std::move(signals), grid, [&](const std::string& column) { return held.contains(column); });
+  auto& said = joined.contents.table.assumptions;
+  said.insert(said.begin(), std::make_move_iterator(assumptions.begin()),
+              std::make_move_iterator(assumptions.end()));
+  return import_file(std::move(joined), of_joined);
+}
+
+}  // namespace flexarm::importing

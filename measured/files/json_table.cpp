@@ -1,0 +1,307 @@
+#include "measured/files/json_table.hpp"
+
+#include "arm/input_error.hpp"
+#include "arm/number.hpp"
+#include "measured/files/column_name.hpp"
+#include "measured/files/record_constants.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+using arm::InputError;
+using Json = nlohmann::ordered_json;
+using std::string_view;
+
+/// Objects within objects.
+constexpr int kDeepestJson = 16;
+
+bool is_scalar(const Json& value) {
+  return value.is_number() || value.is_null() || value.is_string() || value.is_boolean();
+}
+
+bool is_list_of(const Json& list, bool (*is_one)(const Json&)) {
+  return list.is_array() && !list.empty() && std::ranges::all_of(list, is_one);
+}
+
+bool is_object(const Json& value) {
+  return value.is_object();
+}
+
+bool is_list(const Json& value) {
+  return value.is_array();
+}
+
+/// Whether the keys are "0", "1", ...: the rows of a table of pandas.
+bool is_by_row(const Json& object) {
+  if (!object.is_object() || object.size() < 2) return false;
+  std::size_t row = 0;
+  for (const auto& [key, value] : object.items()) {
+    if (key != std::to_string(row++)) return false;
+  }
+  return true;
+}
+
+/// NaN and Infinity, which Python writes and JSON does not know, as null, outside of texts.
+std::string without_nan(string_view text) {
+  std::string out;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) in_text = !in_text;
+    if (!in_text) {
+      bool found = false;
+      for (const string_view word : {"NaN", "-Infinity", "Infinity"}) {
+        if (!text.substr(i).starts_with(word)) continue;
+        out += "null";
+        i += word.size() - 1;
+        found = true;
+        break;
+      }
+      if (found) continue;
+    }
+    out += text[i];
+  }
+  return out;
+}
+
+/// Builds columns; a cell that a row does not have is empty.
+class JsonTableBuilder {
+ public:
+  explicit JsonTableBuilder(JsonTable& out) : out_(out) {}
+
+  void add(const Json& value, const std::string& path, int depth) {
+    if (depth > kDeepestJson) throw InputError("objects within objects without end");
+    if (is_list_of(value, is_object)) {
+      add_rows(value, path);
+    } else if (is_list_of(value, is_list)) {
+      add_lists(value, path);
+    } else if (is_list_of(value, is_scalar)) {
+      add_column(path.empty() ? "column 1" : path, value);
+    } else if (value.is_object()) {
+      add_object(value, path, depth);
+    } else {
+      out_.left_out.push_back(fmt::format("{}: no list of numbers", path.empty() ? "file" : path));
+    }
+  }
+
+  /// Shorter columns are filled up: their last rows have no such cell.
+  void finish() {
+    for (auto& [name, column] : columns_) {
+      if (out_.table.columns.size() >= kMostRecordColumns) {
+        throw InputError(
+            fmt::format("{} columns; at most {} are read", columns_.size(), kMostRecordColumns));
+      }
+      ForeignColumn read{name, split_column_name(name).unit, {}};
+      if (column.is_text) {
+        read.texts = std::move(column.texts);
+      } else {
+        read.values = std::move(column.values);
+      }
+      out_.table.columns.push_back(std::move(read));
+    }
+  }
+
+ private:
+  struct Cells {
+    std::vector<double> values;
+    std::vector<std::string> texts;
+    bool is_text = false;
+  };
+
+  static std::string joined(const std::string& path, const std::string& key) {
+    return path.empty() ? key : path + "." + key;
+  }
+
+  Cells& cells_of(const std::string& name) {
+    const auto [place, is_new] = places_.emplace(name, columns_.size());
+    if (is_new) columns_.emplace_back(name, Cells{});
+    return columns_[place->second].second;
+  }
+
+  /// Puts a value into a row; texts that are numbers are numbers.
+  static void put(Cells& cells, std::size_t row, const Json& value) {
+    cells.values.resize(row, kUnknown);
+    cells.texts.resize(row);
+    double number = kUnknown;
+    std::string text;
+    if (value.is_number()) {
+      number = value.get<double>();
+    } else if (value.is_boolean()) {
+      number = value.get<bool>() ? 1.0 : 0.0;
+    } else if (value.is_string()) {
+      text = value.get<std::string>();
+      const auto read = arm::parse_number<double>(text);
+      if (read) number = *read;
+      cells.is_text = cells.is_text || (!read && !text.empty());
+    }
+    cells.values.push_back(number);
+    cells.texts.push_back(std::move(text));
+  }
+
+  void put_fields(const Json& object, const std::string& path, std::size_t row, int depth) {
+    if (depth > kDeepestJson) throw InputError("objects within objects without end");
+    for (const auto& [key, value] : object.items()) {
+      const std::string name = joined(path, key);
+      if (is_scalar(value)) {
+        put(cells_of(name), row, value);
+      } else if (value.is_object()) {
+        put_fields(value, name, row, depth + 1);
+      } else {
+        std::size_t i = 0;
+        for (const auto& one : value) {
+          if (is_scalar(one)) put(cells_of(fmt::format("{}({})", name, ++i)), row, one);
+        }
+      }
+    }
+  }
+
+  /// A list of objects, one a row.
+  void add_rows(const Json& list, const std::string& path) {
+    const std::size_t before = columns_.size();
+    std::size_t row = 0;
+    for (const auto& object : list) put_fields(object, path, row++, 0);
+    fill(before, row);
+  }
+
+  void fill(std::size_t first_column, std::size_t rows) {
+    for (std::size_t i = first_column; i < columns_.size(); ++i) {
+      columns_[i].second.values.resize(rows, kUnknown);
+      columns_[i].second.texts.resize(rows);
+    }
+  }
+
+  void add_column(const std::string& name, const Json& list) {
+    Cells& cells = cells_of(name);
+    cells = Cells{};
+    std::size_t row = 0;
+    for (const auto& value : list) put(cells, row++, value);
+  }
+
+  /// A list of rows, of which the first may hold the names.
+  void add_lists(const Json& rows, const std::string& path) {
+    const bool has_names = is_list_of(rows.front(), [](const Json& value) {
+      return value.is_string() && !arm::parse_number<double>(value.get<std::string>());
+    });
+    std::vector<std::string> names;
+    if (has_names) names = rows.front().get<std::vector<std::string>>();
+    add_table(names, rows, has_names ? 1 : 0, path);
+  }
+
+  void add_table(const std::vector<std::string>& names, const Json& rows, std::size_t first,
+                 const std::string& path) {
+    const std::size_t before = columns_.size();
+    for (std::size_t row = first; row < rows.size(); ++row) {
+      std::size_t i = 0;
+      for (const auto& value : rows[row]) {
+        const std::string name = i < names.size() ? names[i] : fmt::format("column {}", i + 1);
+        ++i;
+        if (is_scalar(value)) put(cells_of(joined(path, name)), row - first, value);
+      }
+    }
+    fill(before, rows.size() - first);
+  }
+
+  void add_object(const Json& object, const std::string& path, int depth) {
+    const auto names = object.find("columns");
+    const auto data = object.find("data");
+    const bool is_split = names != object.end() && data != object.end() &&
+                          is_list_of(*names, [](const Json& value) { return value.is_string(); }) &&
+                          is_list_of(*data, is_list);
+    if (is_split) {
+      add_table(names->get<std::vector<std::string>>(), *data, 0, path);
+      return;
+    }
+    if (is_by_row(object)) {
+      Json list = Json::array();
+      for (const auto& [key, value] : object.items()) list.push_back(value);
+      add(list, path, depth + 1);
+      return;
+    }
+    for (const auto& [key, value] : object.items()) {
+      if (value.is_array() || value.is_object()) {
+        add(value, joined(path, key), depth + 1);
+      } else {
+        out_.left_out.push_back(fmt::format("{}: a single value", joined(path, key)));
+      }
+    }
+  }
+
+  JsonTable& out_;
+  std::vector<std::pair<std::string, Cells>> columns_;
+  std::map<std::string, std::size_t> places_;
+};
+
+/// The list of the objects that stand one a line; discarded for any other text.
+Json objects_by_line(string_view text) {
+  Json list = Json::array();
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.find_first_not_of(" \t\r") == string_view::npos) continue;
+    Json object = Json::parse(line, nullptr, false);
+    const bool is_row = object.is_object() || object.is_array();
+    if (!is_row) {
+      // The last one may be cut off.
+      if (object.is_discarded() && text.empty() && !list.empty()) break;
+      return Json(Json::value_t::discarded);
+    }
+    list.push_back(std::move(object));
+  }
+  return list;
+}
+
+}  // namespace
+
+bool is_json(string_view bytes) {
+  const auto first = bytes.find_first_not_of(" \t\r\n");
+  if (first == string_view::npos || (bytes[first] != '{' && bytes[first] != '[')) return false;
+  // "[s] [N m]" begins a line of units, "[[run]]" a table of TOML.
+  const auto next = bytes.find_first_not_of("[ \t\r\n", first + (bytes[first] == '{' ? 1 : 0));
+  if (next == string_view::npos) return false;
+  const string_view rest = bytes.substr(next);
+  if (bytes[first] == '{') return rest.front() == '"' || rest.front() == '}';
+  constexpr string_view kFirst = "{\"]-0123456789";
+  return kFirst.find(rest.front()) != string_view::npos || rest.starts_with("null") ||
+         rest.starts_with("NaN");
+}
+
+JsonTable parse_json_table(string_view text, const std::string& file_name) {
+  JsonTable table;
+  try {
+    const std::string sound = without_nan(text);
+    Json json = Json::parse(sound, nullptr, false);
+    if (json.is_discarded()) json = objects_by_line(sound);
+    if (json.is_discarded()) {
+      try {
+        [[maybe_unused]] const Json whole = Json::parse(sound);
+      } catch (const Json::parse_error& error) {
+        throw InputError(fmt::format(
+            "not JSON, nor a JSON object a line: wrong or cut off at byte {}", error.byte));
+      } catch (const Json::exception&) {
+        throw InputError("JSON with a number above 1e308");
+      }
+    }
+    JsonTableBuilder builder(table);
+    builder.add(json, "", 0);
+    builder.finish();
+    if (table.table.columns.empty()) {
+      throw InputError(
+          "JSON without lists of numbers; must be a list of objects, one a sample, or an object of "
+          "lists");
+    }
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, 0);
+  }
+  return table;
+}
+
+}  // namespace flexarm::measured

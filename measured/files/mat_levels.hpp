@@ -1,0 +1,46 @@
+#pragma once
+
+#include "measured/files/mat_file.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::measured {
+
+/// Numbers of any dimensions, two or more, the first index running fastest.
+struct MatNumbers {
+  std::vector<std::size_t> dimensions;
+  std::vector<double> real;
+  std::vector<double> imaginary;  ///< none of a real array
+};
+
+/// Adds numbers as a matrix. Of more than two dimensions, those of size 1 are dropped; where more
+/// than one is left, each line along the longest of them is a vector of its own, "x(2,3,:)", at
+/// most 64 of them.
+void add_numbers(const std::string& name, MatNumbers numbers, MatContents& contents);
+
+/// Adds an object of a class that MATLAB alone reads, with the way to save its numbers.
+void add_object(const std::string& name, const std::string& class_name, MatContents& contents);
+
+/// "NAME(2)", or "NAME" where there is one element only; `element` is counted from 0.
+std::string struct_element_name(const std::string& name, std::size_t elements, std::size_t element);
+/// "NAME{2}", "NAME{1,2}"; `element` is counted from 0, down the first column first.
+std::string cell_name(const std::string& name, std::size_t rows, std::size_t columns,
+                      std::size_t element);
+
+/// Whether bytes are those of a MATLAB file of level 5, 4, or 7.3 (HDF5).
+bool is_level5(std::string_view bytes);
+bool is_level4(std::string_view bytes);
+bool is_level73(std::string_view bytes);
+/// Whether bytes are those of an HDF5 file, MATLAB's or not.
+bool is_hdf5(std::string_view bytes);
+
+/// The variables of a MATLAB file of that level. Throw InputError for what is cut off or damaged,
+/// not located.
+MatContents level5_contents(std::string_view bytes);
+MatContents level4_contents(std::string_view bytes);
+MatContents level73_contents(std::string_view bytes);
+
+}  // namespace flexarm::measured

@@ -1,0 +1,271 @@
+#include "measured/files/mat_names.hpp"
+
+#include "arm/number.hpp"
+#include "measured/files/column_name.hpp"
+#include "measured/files/delimited_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace flexarm::measured {
+
+namespace {
+
+using std::string_view;
+
+constexpr std::array<string_view, 4> kLabelFields = {"label", "name", "signalname", "title"};
+constexpr std::array<string_view, 2> kUnitFields = {"unit", "units"};
+constexpr std::array<string_view, 4> kTimeFields = {"time", "t", "tout", "timestamps"};
+/// Segments of the path of a block that say nothing of the signal.
+constexpr std::array<string_view, 5> kPorts = {"out", "in", "value", "output", "signal"};
+
+std::string lower(string_view text) {
+  std::string letters(text);
+  std::ranges::transform(letters, letters.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return letters;
+}
+
+/// What holds the field: "a.b(2)" of "a.b(2).c"; empty for a variable.
+string_view owner_of(string_view path) {
+  const auto point = path.rfind('.');
+  return point == string_view::npos ? string_view() : path.substr(0, point);
+}
+
+bool is_time_field(string_view path) {
+  return std::ranges::count(kTimeFields, string_view(mat_field(path))) > 0;
+}
+
+/// "c" and "2" of "c{2}".
+std::optional<std::pair<string_view, string_view>> split_cell(string_view path) {
+  const auto brace = path.rfind('{');
+  if (!path.ends_with('}') || brace == string_view::npos) return std::nullopt;
+  return std::pair{path.substr(0, brace), path.substr(brace + 1, path.size() - brace - 2)};
+}
+
+/// "torque" of "\"torque\"" and "<torque>".
+string_view without_quotes(string_view text) {
+  text = trimmed(text);
+  const auto is_within = [&](char open, char close) {
+    return text.size() >= 2 && text.front() == open && text.back() == close &&
+           text.substr(1, text.size() - 2).find(close) == string_view::npos;
+  };
+  if (is_within('"', '"') || is_within('\'', '\'') || is_within('<', '>')) {
+    return trimmed(text.substr(1, text.size() - 2));
+  }
+  return text;
+}
+
+bool is_port(string_view segment) {
+  const std::string letters = lower(segment);
+  const auto end = letters.find_last_not_of("0123456789");
+  const string_view word = string_view(letters).substr(0, end == std::string::npos ? 0 : end + 1);
+  return word.empty() || std::ranges::count(kPorts, word) > 0;
+}
+
+/// "torque" of "Model Root/torque/Out1"; "torque [N m]" as it is.
+std::string label_text(string_view text) {
+  text = without_quotes(text);
+  // "Platform()://Model Root/torque/Out1", of dSPACE.
+  if (const auto platform = text.find("://"); platform != string_view::npos) {
+    text.remove_prefix(platform + 3);
+  }
+  const auto bracket = std::min(text.find_first_of("[({"), text.size());
+  const string_view head = text.substr(0, bracket);
+  if (head.find('/') == string_view::npos || !split_column_name(text).unit.empty()) {
+    return std::string(text);
+  }
+  string_view found;
+  for (string_view rest = head; !rest.empty();) {
+    const auto slash = std::min(rest.find('/'), rest.size());
+    const string_view segment = without_quotes(rest.substr(0, slash));
+    if (!is_port(segment)) found = segment;
+    rest.remove_prefix(std::min(slash + 1, rest.size()));
+  }
+  return std::string(found);
+}
+
+/// As many labels as there are signals, between commas; none otherwise.
+std::vector<std::string> split_labels(const std::string& text, std::size_t count) {
+  std::vector<std::string> labels;
+  for (string_view rest = text;;) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    labels.push_back(label_text(rest.substr(0, comma)));
+    if (comma == rest.size()) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (labels.size() != count) labels.clear();
+  return labels;
+}
+
+}  // namespace
+
+std::string mat_field(string_view path) {
+  string_view field = path.substr(path.rfind('.') + 1);
+  return lower(field.substr(0, field.find_first_of("({")));
+}
+
+MatNames::MatNames(const std::vector<MatVariable>& variables) {
+  for (const auto& variable : variables) {
+    const string_view path = variable.name;
+    const std::string owner(owner_of(path));
+    if (const auto* text = std::get_if<std::string>(&variable.value)) {
+      texts_[owner.empty() ? std::string(path) : owner + "." + mat_field(path)] = *text;
+      if (split_cell(path)) texts_[std::string(path)] = *text;
+    } else if (const auto* list = std::get_if<MatStrings>(&variable.value)) {
+      lists_[owner].push_back(list);
+    } else {
+      const auto* matrix = std::get_if<MatMatrix>(&variable.value);
+      if (matrix != nullptr && matrix->values.size() < 2) continue;
+      if (const auto cell = split_cell(path)) ++cells_in_[std::string(cell->first)];
+      if (is_time_field(path)) continue;
+      for (string_view at = owner_of(path); !at.empty(); at = owner_of(at)) {
+        ++signals_in_[std::string(at)];
+      }
+    }
+  }
+}
+
+std::string MatNames::told_label(string_view path) const {
+  for (string_view owner = owner_of(path); !owner.empty(); owner = owner_of(owner)) {
+    const auto signals = signals_in_.find(owner);
+    if (signals == signals_in_.end() || signals->second > 1) return "";
+    for (const string_view field : kLabelFields) {
+      const auto text = texts_.find(fmt::format("{}.{}", owner, field));
+      if (text != texts_.end() && !trimmed(text->second).empty()) return text->second;
+    }
+  }
+  return "";
+}
+
+std::string MatNames::told_unit(string_view path) const {
+  const string_view owner = owner_of(path);
+  const char* info = is_time_field(path) ? "TimeInfo" : "DataInfo";
+  for (const string_view field : kUnitFields) {
+    for (const auto& place :
+         {fmt::format("{}.{}", owner, field), fmt::format("{}.{}.{}", owner, info, field)}) {
+      const auto text = texts_.find(place);
+      // The unit beside a signal is not that of its time.
+      const bool is_of_time = place.find(info) != std::string::npos;
+      if (text == texts_.end() || (is_time_field(path) && !is_of_time)) continue;
+      return canonical_unit(text->second);
+    }
+  }
+  return "";
+}
+
+const MatStrings* MatNames::list_beside(string_view path, std::size_t count) const {
+  const auto beside = lists_.find(owner_of(path));
+  if (beside == lists_.end()) return nullptr;
+  const MatStrings* found = nullptr;
+  for (const auto* list : beside->second) {
+    if (list->size() != count || count < 2) continue;
+    if (found != nullptr) return nullptr;
+    found = list;
+  }
+  return found;
+}
+
+std::string MatNames::label_of_cell(const std::string& path) const {
+  const auto cell = split_cell(path);
+  if (!cell) return "";
+  const auto [array, index] = *cell;
+  if (const auto comma = index.find(','); comma != string_view::npos) {
+    // The first of the row, or of the column.
+    for (const auto& place : {fmt::format("{}{{1,{}}}", array, index.substr(comma + 1)),
+                              fmt::format("{}{{{},1}}", array, index.substr(0, comma))}) {
+      const auto text = texts_.find(place);
+      if (text != texts_.end()) return text->second;
+    }
+    return "";
+  }
+  const auto cells = cells_in_.find(array);
+  const auto number = arm::parse_number<std::size_t>(index);
+  if (cells == cells_in_.end() || !number || *number == 0) return "";
+  const auto* list = list_beside(array, cells->second);
+  return list != nullptr && *number <= list->size() ? (*list)[*number - 1] : "";
+}
+
+bool MatNames::is_time_beside_signals(string_view path) const {
+  const string_view owner = owner_of(path);
+  if (mat_field(owner) != "x") return false;
+  const string_view around = owner_of(owner);
+  const auto signals = signals_in_.lower_bound(fmt::format("{}.Y", around));
+  if (signals == signals_in_.end()) return false;
+  return string_view(signals->first).starts_with(fmt::format("{}.Y", around)) &&
+         mat_field(signals->first) == "y";
+}
+
+std::vector<MatSignalName> MatNames::of(const std::string& path,
+                                        const std::vector<std::string>& suffixes) const {
+  const std::size_t count = suffixes.size();
+  std::vector<std::string> labels;
+  if (is_time_beside_signals(path)) {
+    labels = {"time"};
+  } else if (const auto* list = list_beside(path, count)) {
+    for (const auto& text : *list) labels.push_back(label_text(text));
+  } else if (!is_time_field(path)) {
+    const std::string cell = label_of_cell(path);
+    const std::string told = cell.empty() ? told_label(path) : cell;
+    labels = count == 1 ? std::vector{label_text(told)} : split_labels(told, count);
+  }
+  labels.resize(count);
+  std::vector<MatSignalName> names;
+  for (std::size_t i = 0; i < count; ++i) {
+    MatSignalName name{labels[i], path + suffixes[i], told_unit(path)};
+    if (name.name.empty()) name.name = name.path;
+    if (name.unit.empty()) {
+      name.unit = split_column_name(labels[i].empty() ? mat_field(path) : labels[i]).unit;
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::vector<MatVariable> gathered_records(std::vector<MatVariable> variables) {
+  constexpr std::size_t kFewestRecords = 10;
+  struct Place {
+    std::string field;  ///< "x.f" of "x(3).f"
+    std::size_t index = 0;
+    double value = 0.0;
+  };
+  const auto place_of = [](const MatVariable& variable) -> std::optional<Place> {
+    const auto* matrix = std::get_if<MatMatrix>(&variable.value);
+    const string_view path = variable.name;
+    const auto close = path.rfind(").");
+    if (matrix == nullptr || matrix->values.size() != 1 || close == string_view::npos) {
+      return std::nullopt;
+    }
+    const auto open = path.rfind('(', close);
+    if (open == string_view::npos) return std::nullopt;
+    const auto index = arm::parse_number<std::size_t>(path.substr(open + 1, close - open - 1));
+    if (!index) return std::nullopt;
+    return Place{std::string(path.substr(0, open)) + std::string(path.substr(close + 1)), *index,
+                 matrix->values.front()};
+  };
+  std::map<std::string, std::vector<double>> fields;
+  for (const auto& variable : variables) {
+    const auto place = place_of(variable);
+    if (!place) continue;
+    auto& values = fields[place->field];
+    if (values.size() + 1 == place->index) values.push_back(place->value);
+  }
+  std::vector<MatVariable> gathered;
+  for (auto& variable : variables) {
+    const auto place = place_of(variable);
+    if (!place || fields[place->field].size() < kFewestRecords) {
+      gathered.push_back(std::move(variable));
+    } else if (place->index == 1) {
+      const auto& values = fields[place->field];
+      gathered.push_back({place->field, MatMatrix{values.size(), 1, values}});
+    }
+  }
+  return gathered;
+}
+
+}  // namespace flexarm::measured

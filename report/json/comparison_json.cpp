@@ -253,8 +253,7 @@ Json measured_runs_json(const std::vector<compare::MeasuredTimeRun>& runs) {
                                    {"fit_percent", signal.fit_percent()},
                                    {"nrmse_percent", signal.nrmse_percent},
                                    {"measured", signal.measured},
-                                   {"simulated", signal.simulated},
-                                   {"left_out", signal.left_out}});
+                                   {"simulated", signal.simulated}});
     }
     all.push_back(std::move(entry));
   }

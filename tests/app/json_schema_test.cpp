@@ -129,16 +129,25 @@ TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
   write("frf.csv",
         "sensor,frequency [Hz],re,im,coherence\nhub_angle,1,0.1,0,0.9\n"
         "hub_angle,2,0.2,0,\n");
-  write("m.toml", "arm = \"a.toml\"\n[[run]]\nid = \"sine\"\nkind = \"frf\"\nfile = \"frf.csv\"\n");
+  write("m.toml",
+        "arm = \"soft.toml\"\n"
+        "[[run]]\nid = \"sine\"\nkind = \"frf\"\nfile = \"frf.csv\"\n"
+        "[[run]]\nid = \"loaded\"\nkind = \"frf\"\nfile = \"frf.csv\"\n"
+        "payload = { mass = 0.1 }\n");
   write("uncertain.toml", std::string(kSoftRoot).replace(7, 0, "length_uncertainty = 0.01\n"));
+  succeed({"simulate", "soft.toml", "--duration", "1", "--modes", "8", "--out", "run"});
+  const auto compared = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "compare");
+    arguments.insert(arguments.end(), {"--poles", "2", "--zeros", "2", "--json", "out.json"});
+    EXPECT_LT(run(arguments).status, 2);  // 1: it differs
+    return Json::parse(text_of("out.json"));
+  };
   expect_as_documented(
-      {written_by({"compare", "--poles", "2", "--zeros", "2", "--sensor", "strain@0.25",
-                   "--measured", "modal.csv"}),
-       written_by({"compare", "uncertain.toml", "--quick", "--poles", "2", "--zeros", "2",
-                   "--measured", "modal.csv"}),
-       written_by({"compare", "--quick", "--poles", "2", "--zeros", "2", "--measured", "frf.csv"}),
-       written_by({"compare", "--quick", "--poles", "2", "--zeros", "2", "--measured", "m.toml"}),
-       written_by({"compare", "soft.toml", "--quick", "--poles", "2", "--zeros", "2"})},
+      {compared({"--sensor", "strain@0.25", "--measured", "modal.csv"}),
+       compared({"uncertain.toml", "--quick", "--measured", "modal.csv"}),
+       compared({"--quick", "--measured", "frf.csv"}), compared({"--quick", "--measured", "m.toml"}),
+       compared({"--quick", "--measured", "run/measurement.toml"}),
+       compared({"soft.toml", "--quick"})},
       "flexarm.compare/1");
 }
 
@@ -182,6 +191,14 @@ TEST_F(JsonSchema, WhatIdentifyWritesIsWhatTheDocumentSays) {
            "random:rms=0.05,payload=0.06", "--out", "sim"});
   std::vector<Json> documents = {written_by(
       {"identify", "sim/measurement.toml", "--sensor", "hub_velocity,tip_acceleration"})};
+  // A torque of the wrong sign, which no arm can have.
+  write("reversed.toml",
+        "arm = \"rig.toml\"\n[[run]]\nid = \"random\"\nkind = \"time\"\n"
+        "file = \"sim/random.csv\"\n"
+        "columns.time = { name = \"time\", unit = \"s\" }\n"
+        "columns.torque = { name = \"torque\", unit = \"N m\", scale = -1.0 }\n"
+        "columns.hub_velocity = { name = \"hub_velocity\", unit = \"rad/s\" }\n");
+  documents.push_back(written_by({"identify", "reversed.toml"}));
   // A dead sensor, a torque that is none, no gains, a table of which one frequency is missing.
   write(
       "dead.csv", "time [s],torque [N m],hub_angle [rad],tip_acceleration [m/s^2]\n" + [&] {

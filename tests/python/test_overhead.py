@@ -7,7 +7,8 @@ import unittest
 
 import flexarm
 
-MOST_OVERHEAD_NS = 2000.0
+# Relative to the call in C++, so that the speed of the machine does not count.
+MOST_OVERHEAD = 0.4
 CALLS = 200
 REPETITIONS = 40
 # Another process on the machine makes a repetition slower, never faster.
@@ -25,7 +26,7 @@ def in_python_ns(call):
 
 
 class Overhead(unittest.TestCase):
-    def test_poles_cost_at_most_two_microseconds_more(self):
+    def test_poles_cost_little_more_than_in_cpp(self):
         exact = flexarm.ExactTransferFunction(flexarm.Arm.paper())
         for _ in range(ATTEMPTS):
             in_cpp_ns = float(
@@ -40,9 +41,9 @@ class Overhead(unittest.TestCase):
                 f"poles(1): C++ {in_cpp_ns:.0f} ns, Python {of_call_ns:.0f} ns, with its array "
                 f"{of_array_ns:.0f} ns: {of_array_ns - in_cpp_ns:.0f} ns more"
             )
-            if of_array_ns - in_cpp_ns <= MOST_OVERHEAD_NS:
+            if of_array_ns - in_cpp_ns <= MOST_OVERHEAD * in_cpp_ns:
                 break
-        self.assertLessEqual(of_array_ns - in_cpp_ns, MOST_OVERHEAD_NS)
+        self.assertLessEqual(of_array_ns - in_cpp_ns, MOST_OVERHEAD * in_cpp_ns)
 
 
 if __name__ == "__main__":

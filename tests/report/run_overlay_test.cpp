@@ -88,7 +88,6 @@ TEST(RunOverlay, JsonHasTheRunAndItsVerdict) {
   EXPECT_EQ(document["measured_verdict"], "agrees");
   const auto& arm = document["comparisons"][0];
   EXPECT_EQ(arm["measured_runs"][0]["channels"][0]["fit_percent"], 97.5);
-  EXPECT_EQ(arm["measured_runs"][0]["channels"][0]["left_out"], Json({1}));
   EXPECT_EQ(arm["runs_left_out"], Json({"loaded"}));
   EXPECT_EQ(arm["measured_verdict"]["largest_difference_of"], "hub_angle of run steps");
   EXPECT_TRUE(arm["measured_verdict"]["chi_square"].is_null());

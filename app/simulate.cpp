@@ -10,6 +10,7 @@
 #include "app/sensor_choice.hpp"
 #include "app/standard_output.hpp"
 #include "arm/input_error.hpp"
+#include "arm/linear_arm.hpp"
 #include "experiment/simulated_experiment.hpp"
 #include "report/json/simulation_json.hpp"
 #include "report/measurement_folder.hpp"
@@ -121,7 +122,7 @@ std::string standing_notes(const std::vector<report::SimulatedRun>& runs) {
 }
 
 /// What the longest sampling period does not show of the modes that are seen in the readings.
-std::string sampling_note(const experiment::SimulatedExperiment& experiment) {
+std::string sampling_note(const arm::Arm& arm, const experiment::SimulatedExperiment& experiment) {
   const double highest_Hz = experiment.truncation.visible_Hz;
   double longest_s = 0.0;
   for (const auto& run : experiment.runs) {
@@ -134,11 +135,15 @@ std::string sampling_note(const experiment::SimulatedExperiment& experiment) {
   return screen_note(fmt::format(
       "modes up to {:.3g} Hz are visible in the readings (1 % of a signal). The highest has {:.2g} "
       "samples per period: {}. The readings are exact; a sampling period (--period) of {:.1g} s "
-      "shows all of it.",
+      "shows all of it.{}",
       highest_Hz, samples,
       samples <= response::kAliasedSamplesPerPeriod ? "they show it at a lower frequency (alias)"
                                                     : "its peaks fall between them",
-      digit_s * std::floor(fine_s / digit_s)));
+      digit_s * std::floor(fine_s / digit_s),
+      arm::linear_arm(arm).kelvin_voigt_s > 0.0 ? ""
+                                                : " The arm has no material damping: with "
+                                                  "damping.kelvin_voigt in its file the high modes "
+                                                  "decay."));
 }
 
 /// Stepped sines that were not steady when they were measured.
@@ -197,13 +202,16 @@ void print_stepped_runs(const std::vector<report::SteppedSineRun>& runs, bool ha
   print(with_sentences_below(report::stepped_sine_table(runs)));
 }
 
-void print_results(const SimulateArguments& arguments, const std::vector<PlannedRun>& plan,
-                   const experiment::SimulatedExperiment& experiment, bool has_dry_friction) {
+void print_results(const SimulateArguments& arguments, const arm::Arm& arm,
+                   const std::vector<PlannedRun>& plan,
+                   const experiment::SimulatedExperiment& experiment) {
+  const bool has_dry_friction = !response::take_apart(arm).hub.friction.empty();
   const auto& runs = experiment.runs;
   print_runs_in_time(runs, has_dry_friction, arguments.verbose);
   print_stepped_runs(experiment.stepped_runs, has_dry_friction);
   const std::string notes = rounding_notes(plan) + standing_notes(runs) +
-                            sampling_note(experiment) + settling_notes(experiment.stepped_runs);
+                            sampling_note(arm, experiment) +
+                            settling_notes(experiment.stepped_runs);
   if (!notes.empty()) print(notes + "\n");
 }
 
@@ -277,7 +285,7 @@ int run_simulate(SimulateArguments arguments) {
   // Files first: a reader of standard output that goes away costs none of them.
   write_files(arguments, arm, written, plan, experiment);
   print_model(arguments, arm, experiment);
-  print_results(arguments, plan, experiment, !response::take_apart(arm).hub.friction.empty());
+  print_results(arguments, arm, plan, experiment);
   if (arguments.output.folder.empty()) {
     print(fmt::format("next: write it as a measurement with  flexarm simulate{} --out simulated\n",
                       arguments.arm.file.empty() ? "" : " " + arguments.arm.file));

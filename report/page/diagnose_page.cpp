@@ -96,7 +96,7 @@ std::vector<Fact> facts_of_what_is_left(const Diagnosis& diagnosis) {
   };
   if (const auto worst = std::ranges::max_element(bands, {}, excess); worst != bands.end()) {
     facts.push_back(
-        {fmt::format("most is left in {}, {} to {} Hz", text_in_words(worst->sensor),
+        {fmt::format("largest error: {}, {} to {} Hz", text_in_words(worst->sensor),
                      number_of(worst->band.from_Hz, 3), number_of(worst->band.to_Hz, 3)),
          fmt::format("{} (noise {})",
                      percent_of(has_simulation_after ? worst->after : worst->before),

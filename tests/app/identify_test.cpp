@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 
 namespace flexarm::testing_app {
 namespace {
@@ -305,12 +306,14 @@ TEST_F(Identify, AnAliasIsNoPoleAndOnePeakHasOneOrder) {
 
 TEST_F(Identify, AFreeDecayIsIdentifiedAndDiagnosed) {
   std::string csv = "time [s],torque [N m],hub_angle [rad],tip_acceleration [m/s^2]\n";
+  std::minstd_rand random(5);
+  std::uniform_real_distribution<double> noise(-0.006, 0.006);
   for (int k = 0; k < 4000; ++k) {
     const double t = 0.002 * k;
     const auto decay = [t](double f_Hz, double zeta) {
       return std::exp(-zeta * 2.0 * M_PI * f_Hz * t) * std::cos(2.0 * M_PI * f_Hz * t);
     };
-    const double tip = 5.0 * decay(2.9, 0.010) + decay(18.0, 0.012) + 1e-3 * ((k * 7919) % 13 - 6);
+    const double tip = 5.0 * decay(2.9, 0.010) + decay(18.0, 0.012) + noise(random);
     csv += std::to_string(t) + ",0,0.001," + std::to_string(tip) + "\n";
   }
   write("free.csv", csv);

@@ -180,16 +180,16 @@ IdentificationTask read_identification_task(const std::filesystem::path& measure
   return task;
 }
 
-IdentificationTask identification_task(const Recording& recording,
+IdentificationTask identification_task(const std::string& name, const std::optional<arm::Arm>& arm,
+                                       const std::vector<measured::MeasuredRun>& runs,
                                        const IdentificationRequest& request) {
-  IdentificationTask task{{recording.name, "", {}}, recording.arm, {}, {}};
-  for (const auto& [run, data] : recording.runs) task.measurement.runs.push_back(run);
-  arm::require_valid(recording.arm);
+  IdentificationTask task{{name, "", {}}, arm, {}, {}};
+  for (const auto& [run, data] : runs) task.measurement.runs.push_back(run);
+  if (arm) arm::require_valid(*arm);
   task.options = options_of(request, task.arm);
   for (const auto& chosen : chosen_runs(request, task.measurement, "the measurement")) {
-    task.runs.push_back(*std::ranges::find(recording.runs, chosen.id, [](const auto& one) {
-      return one.run.id;
-    }));
+    task.runs.push_back(
+        *std::ranges::find(runs, chosen.id, [](const auto& one) { return one.run.id; }));
   }
   select_sensors(request, task.runs);
   return task;

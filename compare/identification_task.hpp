@@ -2,7 +2,6 @@
 
 #include "arm/arm.hpp"
 #include "arm/option_name.hpp"
-#include "compare/recording.hpp"
 #include "measured/run_identification.hpp"
 
 #include <filesystem>
@@ -52,7 +51,8 @@ IdentificationTask read_identification_task(const std::filesystem::path& measure
                                             const IdentificationRequest& request);
 
 /// The same of a measurement in memory.
-IdentificationTask identification_task(const Recording& recording,
+IdentificationTask identification_task(const std::string& name, const std::optional<arm::Arm>& arm,
+                                       const std::vector<measured::MeasuredRun>& runs,
                                        const IdentificationRequest& request);
 
 }  // namespace flexarm::compare

@@ -97,9 +97,10 @@ Identified identify(const py::object& measurement, const Texts& runs, const Text
       .spelled = as_argument};
   const MeasurementSource source = measurement_source(measurement);
   return long_call("identification", progress, [&](CallState& state) {
-    const auto* path = std::get_if<std::filesystem::path>(&source);
-    auto task = path ? compare::read_identification_task(*path, request)
-                     : compare::identification_task(recording_of(source), request);
+    const auto* given = std::get_if<Measurement>(&source);
+    auto task =
+        given ? compare::identification_task(given->name, known_arm(*given), given->runs, request)
+              : compare::read_identification_task(std::get<std::filesystem::path>(source), request);
     task.options.progress = [&](std::string_view, double fraction) {
       return state.reach(fraction);
     };

@@ -25,11 +25,12 @@ namespace {
 
 Measurement read_measurement(const std::filesystem::path& path) {
   const auto file = measured::read_measurement(path);
-  Measurement measurement{file.name,
-                          {},
-                          file.arm.empty() ? std::filesystem::path() : measured::beside(path, file.arm),
-                          path,
-                          {}};
+  Measurement measurement{
+      file.name,
+      {},
+      file.arm.empty() ? std::filesystem::path() : measured::beside(path, file.arm),
+      path,
+      {}};
   for (const auto& run : file.runs) {
     measurement.runs.push_back({run, measured::read_run(path, run)});
   }
@@ -56,10 +57,7 @@ Measurement measurement_of(const py::object& arm, const py::object& runs, const 
 }
 
 arm::Arm arm_in(const Measurement& measurement) {
-  if (measurement.arm) return *measurement.arm;
-  if (!measurement.arm_file.empty()) {
-    return measured::read_arm_file(measurement.arm_file, effects::vocabulary());
-  }
+  if (const auto known = known_arm(measurement)) return *known;
   throw arm::InputError("measurement: has no arm; make it with Measurement(arm, runs)");
 }
 
@@ -91,6 +89,13 @@ MeasurementSource measurement_source(const py::object& measurement) {
   }
 }
 
+std::optional<arm::Arm> known_arm(const Measurement& measurement) {
+  if (measurement.arm) return measurement.arm;
+  const auto& file = measurement.arm_file;
+  if (file.empty() || measured::is_unfilled_arm_file(file)) return std::nullopt;
+  return measured::read_arm_file(file, effects::vocabulary());
+}
+
 compare::Recording recording_of(const MeasurementSource& source) {
   if (const auto* path = std::get_if<std::filesystem::path>(&source)) {
     return compare::read_recording(*path);
@@ -107,17 +112,16 @@ void add_measurements(py::module_& module) {
       "  arm: an Arm, the path of an arm file, or None where it is not known\n"
       "  runs: a TimeRun, FrequencyRun or ModalRun, or a list of these, each with its own id\n"
       "  name: its name\n\n"
-      "identify and diagnose take it as they take the path of a measurement.toml. Raises "
+      "identify and diagnose take it as they take the path of a measurement.toml; identify needs "
+      "no "
+      "arm. Raises "
       "InputError for runs that do not go together.")
       .def(py::init(&measurement_of), py::arg("arm"), py::arg("runs"), py::arg("name") = "")
       .def_readonly("name", &Measurement::name, "Its name.")
       .def_property_readonly(
-          "arm",
-          [](const Measurement& self) -> std::optional<arm::Arm> {
-            if (!self.arm && self.arm_file.empty()) return std::nullopt;
-            return arm_in(self);
-          },
-          "Its Arm, read from the arm file where there is one; None where it is not known.")
+          "arm", &known_arm,
+          "Its Arm, read from the arm file where there is one; None where it is not known, or no "
+          "number is filled in in the file.")
       .def_property_readonly(
           "arm_file", [](const Measurement& self) { return self.arm_file.string(); },
           "Path of the arm file, '' without one.")

@@ -27,6 +27,10 @@ using MeasurementSource = std::variant<Measurement, std::filesystem::path>;
 /// Throws py::type_error, one line, for any other object.
 MeasurementSource measurement_source(const pybind11::object& measurement);
 
+/// Returns its arm, or that of its arm file; empty without one, or where no number is filled in in
+/// the file. Throws arm::InputError as `measured::read_arm_file`.
+std::optional<arm::Arm> known_arm(const Measurement& measurement);
+
 /// The recording of a measurement, or that of the file. Throws arm::InputError as
 /// `compare::read_recording`, and where the arm is not known.
 compare::Recording recording_of(const MeasurementSource& source);

@@ -29,13 +29,16 @@ constexpr double kProbeStep = 1e-2;
 /// Samples of the torque up to the sample that residuals are regressed on.
 constexpr Index kTorqueLags = 40;
 
-/// A few values of a hypothesis: beside where its single parameter does nothing, or over the
-/// ranges.
+/// A few values of a hypothesis: on each side of where its single parameter does nothing, or over
+/// the ranges. The sides differ for some: in closed loop a delay below 0 is one of the log alone.
 std::vector<std::vector<double>> probes_of(const Hypothesis& hypothesis) {
   std::vector<double> places = {0.2, 0.5, 0.8};
   const auto neutral = hypothesis.parameters.front().neutral_coordinate();
   if (hypothesis.parameters.size() == 1 && neutral) {
-    places = {*neutral < 0.5 ? *neutral + kProbeStep : *neutral - kProbeStep};
+    places.clear();
+    for (const double place : {*neutral - kProbeStep, *neutral + kProbeStep}) {
+      if (place >= 0.0 && place <= 1.0) places.push_back(place);
+    }
   }
   std::vector<std::vector<double>> probes;
   for (const double place : places) {

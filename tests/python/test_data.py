@@ -209,6 +209,12 @@ class Measurements(unittest.TestCase):
         self.assertIn("no such run in the measurement",
                       refusal(self, lambda: flexarm.identify(self.measurement, runs=["other"])))
 
+    def test_an_identification_needs_no_arm(self):
+        poles = [root.frequency_Hz for root in flexarm.identify(self.measurement).roots(feature="pole", method="fit")]
+        without = flexarm.identify(flexarm.Measurement(None, self.run))
+        self.assertTrue(poles)
+        self.assertEqual([root.frequency_Hz for root in without.roots(feature="pole", method="fit")], poles)
+
     def test_a_diagnosis_is_that_of_the_file(self):
         ours, theirs = flexarm.diagnose(self.measurement), flexarm.diagnose(self.file)
         self.assertEqual([cause.effect for cause in ours.causes], ["time_delay"])

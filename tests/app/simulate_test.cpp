@@ -190,7 +190,8 @@ TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaidOnce) {
 }
 
 TEST_F(Simulate, TheSamplingNoteSaysAPeriodThatShowsAllVisibleModes) {
-  for (const char* excitation : {"bang-bang", "step", "random:to=40", "chirp", "prbs", "sine"}) {
+  for (const char* excitation :
+       {"bang-bang:pulse=0.1", "step", "random:to=40", "chirp:to=40", "prbs", "sine"}) {
     const std::vector<std::string> arguments = {"simulate",   "--excitation", excitation,
                                                 "--duration", "0.2",          "--period"};
     const auto with_period = [&](const std::string& period) {

@@ -132,18 +132,20 @@ std::string sampling_note(const arm::Arm& arm, const experiment::SimulatedExperi
   if (!(samples < response::kFineSamplesPerPeriod)) return "";
   const double fine_s = 1.0 / (highest_Hz * response::kFineSamplesPerPeriod);
   const double digit_s = std::pow(10.0, std::floor(std::log10(fine_s)));
+  // Without damping more modes are visible the finer the sampling.
+  const std::string advice =
+      arm::linear_arm(arm).kelvin_voigt_s > 0.0
+          ? fmt::format("a sampling period (--period) of {:.1g} s shows all of it",
+                        digit_s * std::floor(fine_s / digit_s))
+          : "the arm has no material damping, and high modes do not decay: state "
+            "damping.kelvin_voigt in its file";
   return screen_note(fmt::format(
       "modes up to {:.3g} Hz are visible in the readings (1 % of a signal). The highest has {:.2g} "
-      "samples per period: {}. The readings are exact; a sampling period (--period) of {:.1g} s "
-      "shows all of it.{}",
+      "samples per period: {}. The readings are exact; {}.",
       highest_Hz, samples,
       samples <= response::kAliasedSamplesPerPeriod ? "they show it at a lower frequency (alias)"
                                                     : "its peaks fall between them",
-      digit_s * std::floor(fine_s / digit_s),
-      arm::linear_arm(arm).kelvin_voigt_s > 0.0 ? ""
-                                                : " The arm has no material damping: with "
-                                                  "damping.kelvin_voigt in its file the high modes "
-                                                  "decay."));
+      advice));
 }
 
 /// Stepped sines that were not steady when they were measured.

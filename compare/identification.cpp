@@ -4,7 +4,9 @@
 #include "compare/reading_clusters.hpp"
 #include "compare/standard_models.hpp"
 #include "response/any_formulation.hpp"
+#include "response/formulation_maker.hpp"
 #include "response/frequency/response_study.hpp"
+#include "response/truncation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +23,6 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Modes whose aliases are looked for lie up to this times kMostFactor above what is seen.
-constexpr double kAliasReach = 2.0;
 const arm::Sensor kTip{arm::SensorKind::tip_displacement, 0.0};
 
 AnalyticalPole pole_of(const arm::PolePair& pair) {
@@ -45,22 +45,42 @@ AnalyticalGains gains_of(const std::string& model, const response::AnyFormulatio
   return gains;
 }
 
-/// The highest frequency that the readings of a payload show, or samples may [Hz].
+/// The highest frequency that the readings of a payload show [Hz].
 double highest_Hz(const measured::Identification& identification, const arm::Payload& payload,
                   const arm::Arm& arm) {
   double highest = 0.0;
-  double nyquist = 0.0;
-  for (const auto& run : identification.runs) {
-    if (run.sampling_period_s > 0.0) nyquist = std::max(nyquist, 0.5 / run.sampling_period_s);
-  }
   for (const auto& reading : identification.readings) {
     if (reading.payload.value_or(arm.payload) != payload) continue;
     for (const auto& entry : reading.table) {
       highest = std::max(highest, entry.frequency_Hz.value_or(0.0));
     }
   }
-  // Modes above half the sampling frequency have aliases; those far above answer too little.
-  return std::max(highest, std::min(nyquist, kAliasReach * highest));
+  return highest;
+}
+
+/// Returns the damped poles above the first `known` whose aliases are looked for in samples.
+std::vector<ModelRoot> poles_beyond(const arm::Arm& arm, std::size_t known,
+                                    const std::vector<SampledReading>& readings) {
+  double period_s = std::numeric_limits<double>::infinity();
+  for (const SampledReading& reading : readings) {
+    if (reading.sampling_period_s > 0.0) period_s = std::min(period_s, reading.sampling_period_s);
+  }
+  if (std::isinf(period_s) || !arm::has_beam(arm)) return {};
+  const auto formulation = response::formulation_of_fit(arm);
+  response::ResponseOptions wanted;
+  wanted.modes = 1;
+  wanted.to_Hz = kMostTurns / period_s;
+  const int count = std::min(response::roots_needed(arm, wanted),
+                             response::most_chosen_modes(response::name(formulation)));
+  const auto pairs = response::damped_poles(formulation, count).flexible;
+  std::vector<ModelRoot> beyond;
+  for (std::size_t i = known; i < pairs.size(); ++i) {
+    const AnalyticalPole pole = pole_of(pairs[i]);
+    if (pole.damping_ratio < 1.0) {
+      beyond.push_back({pole.frequency_Hz, static_cast<int>(i) + 1});
+    }
+  }
+  return beyond;
 }
 
 /// Of the responses of runs with a payload; empty where there are none.
@@ -262,7 +282,12 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
       const auto& reading = identification.readings[i];
       readings.push_back({&reading, sampling_period_s(identification, reading)});
     }
-    const ModelRoots model = model_roots(condition.analytical);
+    ModelRoots model = model_roots(condition.analytical);
+    if (arm) {
+      arm::Arm loaded = *arm;
+      loaded.payload = condition.payload;
+      model.beyond = poles_beyond(loaded, model.poles.size(), readings);
+    }
     const auto places = place_readings(readings, arm ? std::optional(model) : std::nullopt);
     for (std::size_t k = 0; k < readings.size(); ++k) {
       condition.roots.push_back(

@@ -18,8 +18,6 @@ using measured::Method;
 using measured::ModalEntry;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-/// Turns of the sampling frequency by which an alias is looked for.
-constexpr int kMostTurns = 2;
 /// Poles below one whose spacing can be judged without a model.
 constexpr std::size_t kPolesBelow = 3;
 /// Methods, most accurate first.
@@ -46,6 +44,7 @@ struct RootCluster {
   std::optional<arm::Sensor> sensor;  ///< of a zero
   std::vector<PlacedEstimate> estimates;
   RootPlace place;
+  bool is_sure = true;  ///< not a peak by chance: it would move all orders above it
 
   double frequency_Hz() const { return estimates.front().frequency_Hz; }
   double nyquist_Hz() const {
@@ -81,7 +80,7 @@ void add_to(RootClusters& clusters, Feature feature, const std::optional<arm::Se
     nearest = &cluster;
   }
   if (nearest == nullptr) {
-    clusters.push_back({feature, sensor, {estimate}, {}});
+    clusters.push_back({feature, sensor, {estimate}, {}, true});
     return;
   }
   const auto own = own_of(*nearest, estimate);
@@ -114,6 +113,13 @@ RootClusters clusters_of(std::span<const SampledReading> readings) {
     add_to(clusters, entry.feature, is_pole ? std::nullopt : entry.sensor, estimate);
   }
   std::ranges::stable_sort(clusters, {}, &RootCluster::frequency_Hz);
+  const auto is_fitted = [](const RootCluster& cluster) {
+    return cluster.estimates.front().method == Method::rational_fit;
+  };
+  const bool has_fit = std::ranges::any_of(clusters, is_fitted);
+  for (RootCluster& cluster : clusters) {
+    cluster.is_sure = !has_fit || is_fitted(cluster) || cluster.estimates.size() > 1;
+  }
   return clusters;
 }
 
@@ -156,7 +162,7 @@ ClusterNumbering number(const RootClusters& clusters, const ModelRoots& model) {
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     const RootCluster& cluster = clusters[c];
     if (cluster.place.alias_of_Hz) continue;
-    if (!cluster.is_pole() && is_beside_left_out(clusters, c)) continue;
+    if (cluster.is_pole() ? !cluster.is_sure : is_beside_left_out(clusters, c)) continue;
     table.push_back({.sensor = cluster.sensor,
                      .feature = cluster.feature,
                      .order = {},
@@ -187,18 +193,31 @@ ClusterNumbering number(const RootClusters& clusters, const ModelRoots& model) {
   return made;
 }
 
-/// The mode above the Nyquist frequency whose alias is nearest, with the misfit of that.
-std::pair<const ModelRoot*, double> nearest_alias(const RootCluster& cluster,
-                                                  const ModelRoots& model, double factor) {
-  std::pair<const ModelRoot*, double> nearest{nullptr, kInfinite};
+/// A mode above the Nyquist frequency that a pole may be the alias of.
+struct Alias {
+  const ModelRoot* mode = nullptr;
+  double misfit = kInfinite;  ///< [(f - folded)/f_m]^2
+  double chance = kInfinite;  ///< that one of the modes up to this has an alias as near
+};
+
+/// Returns the one that is near by chance with the least probability.
+Alias least_by_chance(const RootCluster& cluster, const ModelRoots& model, double factor) {
+  Alias found;
   const double nyquist_Hz = cluster.nyquist_Hz();
-  for (const ModelRoot& pole : model.poles) {
-    const double mode_Hz = factor * pole.frequency_Hz;
-    if (mode_Hz <= nyquist_Hz || mode_Hz > 2.0 * kMostTurns * nyquist_Hz) continue;
-    const double off = (folded_Hz(mode_Hz, nyquist_Hz) - cluster.frequency_Hz()) / mode_Hz;
-    if (off * off < nearest.second) nearest = {&pole, off * off};
+  const double std_Hz = cluster.estimates.front().std_Hz;
+  double modes = 0.0;
+  for (const auto* poles : {&model.poles, &model.beyond}) {
+    for (const ModelRoot& pole : *poles) {
+      const double mode_Hz = factor * pole.frequency_Hz;
+      if (mode_Hz <= nyquist_Hz || mode_Hz > 2.0 * kMostTurns * nyquist_Hz) continue;
+      modes += 1.0;
+      const double off_Hz = std::abs(folded_Hz(mode_Hz, nyquist_Hz) - cluster.frequency_Hz());
+      const double near_Hz = std::isfinite(std_Hz) ? std::max(off_Hz, std_Hz) : off_Hz;
+      const double chance = 2.0 * modes * near_Hz / nyquist_Hz;
+      if (chance < found.chance) found = {&pole, std::pow(off_Hz / mode_Hz, 2), chance};
+    }
   }
-  return nearest;
+  return found;
 }
 
 /// The frequency nearest to `expected_Hz` that sampling folds to the cluster's.
@@ -218,23 +237,26 @@ double unfolded_Hz(const RootCluster& cluster, double expected_Hz) {
 /// Marks the pole that is an alias most surely; whether there was one.
 bool mark_alias(RootClusters& clusters, const ModelRoots& model) {
   const double before = number(clusters, model).misfit;
-  double least = before / (kDistinct * kDistinct);
+  double least_chance = kMostChance;
   RootCluster* alias = nullptr;
   RootPlace place;
   for (RootCluster& cluster : clusters) {
-    if (!cluster.is_pole() || cluster.place.alias_of_Hz || std::isinf(cluster.nyquist_Hz())) {
-      continue;
-    }
+    const bool may_be = cluster.is_pole() && cluster.is_sure && !cluster.place.alias_of_Hz &&
+                        std::isfinite(cluster.nyquist_Hz());
+    if (!may_be) continue;
     cluster.place.alias_of_Hz = cluster.frequency_Hz();  // left out
     const ClusterNumbering without = number(clusters, model);
     cluster.place = {};
     if (without.poles < 2) continue;
-    const auto [mode, off] = nearest_alias(cluster, model, without.factor);
-    const double misfit = without.misfit + off + kAliasPrice * kAliasPrice;
-    if (mode == nullptr || misfit >= least) continue;
-    least = misfit;
+    const Alias found = least_by_chance(cluster, model, without.factor);
+    const double as_alias = found.misfit + kAliasPrice * kAliasPrice;
+    if (found.chance > least_chance || before - without.misfit < kDistinct * kDistinct * as_alias) {
+      continue;
+    }
+    least_chance = found.chance;
     alias = &cluster;
-    place = {std::nullopt, unfolded_Hz(cluster, without.factor * mode->frequency_Hz), mode->order};
+    place = {std::nullopt, unfolded_Hz(cluster, without.factor * found.mode->frequency_Hz),
+             found.mode->order};
   }
   if (alias != nullptr) alias->place = place;
   return alias != nullptr;
@@ -260,17 +282,11 @@ void mark_aliases_by_spacing(RootClusters& clusters) {
   }
 }
 
-/// Poles, and zeros sensor by sensor, counted from 1 up. Where there is a fit, what it lacks counts
-/// if two readings have it: a peak by chance would move all orders above it.
+/// Poles, and zeros sensor by sensor, counted from 1 up.
 void count_up(RootClusters& clusters) {
-  const auto is_fitted = [](const RootCluster& cluster) {
-    return cluster.estimates.front().method == Method::rational_fit;
-  };
-  const bool has_fit = std::ranges::any_of(clusters, is_fitted);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     RootCluster& cluster = clusters[c];
-    const bool is_sure = !has_fit || is_fitted(cluster) || cluster.estimates.size() > 1;
-    if (cluster.place.alias_of_Hz || !is_sure) continue;
+    if (cluster.place.alias_of_Hz || !cluster.is_sure) continue;
     int order = 1;
     for (std::size_t k = 0; k < c; ++k) {
       const RootCluster& below = clusters[k];

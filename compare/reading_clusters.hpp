@@ -30,12 +30,19 @@ struct SampledReading {
 /// (`number_roots`), or, without a model, counted from 1 up. Given tables are numbered by
 /// themselves, each with the zeros of its own runs, and keep the orders that they state.
 ///
-/// A pole is taken for the alias of a mode m above the Nyquist frequency if the sum over the poles
+/// Where a fit gives poles, a pole that it lacks has an order if two readings show it.
+///
+/// A pole at f is taken for the alias of a mode m above the Nyquist frequency F if its part in the
+/// sum over the poles
 ///
 ///     sum (ln(measured/model) - mean)^2 + kUnmatched^2 (poles without a mode)
-///       + [(f - folded)/f_m]^2 + kAliasPrice^2 (of an alias),
 ///
-/// f_m by the model times exp(mean), is lower by kDistinct^2 than with the pole as it is. Without a
+/// is at least kDistinct^2 ([(f - folded)/f_m]^2 + kAliasPrice^2), and the aliases of the modes up
+/// to m, k of them, would lie so near by chance with a probability of at most kMostChance:
+///
+///     2 k max(|f - folded|, standard error)/F;
+///
+/// f_m is that of the model times exp(mean), up to kMostTurns of the sampling frequency. Without a
 /// model it is one if its distance from the pole below, in the root of the frequency, is below
 /// kTooNear of the distance between the two poles below that, and a frequency that it may be the
 /// alias of continues their distances to within kContinued: those of a beam grow evenly with the
@@ -50,6 +57,8 @@ inline constexpr double kSamePole = 0.07;
 inline constexpr double kSameZero = 0.08;
 inline constexpr double kUnmatched = 0.25;
 inline constexpr double kAliasPrice = 0.03;
+inline constexpr double kMostChance = 0.05;
+inline constexpr int kMostTurns = 2;
 inline constexpr double kTooNear = 0.6;
 inline constexpr double kContinued = 0.2;
 

@@ -153,11 +153,19 @@ void number_by_distance(const Sequence& measured, const std::vector<ModelRoot>& 
     found.emplace_back(root.frequency_Hz);
     entries.push_back(root.entry);
   }
+  // Of equal sums of distances the match may be one in which orders fall with frequency.
+  std::vector<int> matched_orders;
+  std::vector<std::pair<double, std::size_t>> matched_roots;
   const auto matched = match_nearest(reference, found);
   for (std::size_t i = 0; i < matched.size(); ++i) {
     if (!matched[i]) continue;
     const auto at = std::ranges::find(found, *matched[i]) - found.begin();
-    orders[entries[static_cast<std::size_t>(at)]] = {free[i].order, OrderBasis::distance};
+    matched_orders.push_back(free[i].order);
+    matched_roots.emplace_back(matched[i]->real(), entries[static_cast<std::size_t>(at)]);
+  }
+  std::ranges::sort(matched_roots);
+  for (std::size_t k = 0; k < matched_roots.size(); ++k) {
+    orders[matched_roots[k].second] = {matched_orders[k], OrderBasis::distance};
   }
 }
 

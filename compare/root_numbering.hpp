@@ -22,6 +22,7 @@ struct ModelRoots {
   double lowest_Hz = 0.0;  ///< of the mode below the flexible ones; 0 where the arm turns freely
   std::vector<ModelRoot> poles = {};
   std::vector<Zeros> zeros = {};
+  std::vector<ModelRoot> beyond = {};  ///< poles above those: samples may show their aliases
 };
 
 enum class OrderBasis { none, stated, interlacing, distance };

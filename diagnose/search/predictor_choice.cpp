@@ -167,11 +167,26 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
   return std::move(made);
 }
 
+/// Whether the residuals of the arm as filed are noise; false after the deadline.
+bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
+  try {
+    const Problem in_time = problem.until(deadline);
+    return explain(in_time, fit(in_time, in_time.as_filed(), {.most_steps = 0})).leaves_noise();
+  } catch (const Cancelled&) {
+    return false;
+  }
+}
+
 /// By simulation, and where that does not leave noise by a filter; the first of them in
-/// kSimulationTime of the time.
+/// kSimulationTime of the time. Nothing is asked of the noise of the torque where the arm as filed
+/// leaves noise without it.
 PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
-  if (auto noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5))) {
+  std::optional<PredictedSelection> noisy;
+  if (!is_adequate(problem, task.options.deadline)) {
+    noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5));
+  }
+  if (noisy) {
     if (noisy->selection.cancelled || noisy->names_nothing()) return *std::move(noisy);
     return without_torque_noise(*std::move(noisy), task, problem, part_of(progress, 0.5, 1.0));
   }

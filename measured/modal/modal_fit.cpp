@@ -27,6 +27,9 @@ constexpr double kSureDecay = 4.0;
 constexpr double kNearDamping = 0.3;
 /// Residuals below this share of the reading are rounding, whatever their colour.
 constexpr double kOnlyRounding = 1e-6;
+/// No record is so free of noise: a fit that leaves less in every sensor has converged, whatever
+/// its steps in its tiny standard errors are.
+constexpr double kBelowAnyNoise = 1e-5;
 constexpr double kAfterChart = 0.1;  // shares of the progress
 constexpr double kOfSearch = 0.55;
 constexpr double kHalfWay = 0.55;
@@ -351,6 +354,9 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     fit.iterations = best.iterations;
     fit.converged = best.converged;
   }
+  fit.converged = fit.converged || std::ranges::all_of(study.sensors, [](const auto& residual) {
+                    return residual.relative <= kBelowAnyNoise;
+                  });
   fit.blocks = best.blocks;
   const bool coloured = !std::ranges::all_of(study.sensors, &ResidualQuality::is_noise);
   fit.robust_covariance = options.robust.value_or(coloured);

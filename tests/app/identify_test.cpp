@@ -336,7 +336,7 @@ TEST_F(Identify, AFreeDecayIsIdentifiedAndDiagnosed) {
   EXPECT_NEAR(roots[0]["damping_ratio"].get<double>(), 0.010, 0.0005);
   EXPECT_NEAR(roots[1]["frequency_Hz"].get<double>(), 18.0, 0.02);
   EXPECT_NEAR(roots[1]["damping_ratio"].get<double>(), 0.012, 0.0006);
-  const Ended diagnosed = run({"diagnose", "run/measurement.toml", "--effects", "none"});
+  const Ended diagnosed = run({"diagnose", "run/measurement.toml", "--effects", "payload_mass"});
   EXPECT_EQ(diagnosed.status, 0) << diagnosed.errors;
 }
 

@@ -190,14 +190,15 @@ TEST_F(Simulate, ASamplingTooCoarseForTheModesIsSaidOnce) {
 }
 
 TEST_F(Simulate, TheSamplingNoteSaysAPeriodThatShowsAllVisibleModes) {
+  write("rig.toml",
+        "[beam]\nlength = 0.96\nthickness = 0.0032\nflexural_rigidity = 3.7\n"
+        "linear_density = 0.165\n[hub]\ninertia = 0.0006\n[damping]\nkelvin_voigt = 1e-4\n");
   for (const char* excitation :
        {"bang-bang:pulse=0.1", "step", "random:to=40", "chirp:to=40", "prbs", "sine"}) {
-    const std::vector<std::string> arguments = {"simulate",   "--excitation", excitation,
-                                                "--duration", "0.2",          "--period"};
     const auto with_period = [&](const std::string& period) {
-      auto all = arguments;
-      all.push_back(period);
-      return run(all).output;
+      return run({"simulate", "rig.toml", "--excitation", excitation, "--duration", "0.2",
+                  "--period", period})
+          .output;
     };
     const std::string coarse = with_period("0.01");
     const std::string words = "a sampling period (--period) of ";
@@ -208,6 +209,9 @@ TEST_F(Simulate, TheSamplingNoteSaysAPeriodThatShowsAllVisibleModes) {
     const std::string period = text.substr(from, text.find(' ', from) - from);
     EXPECT_THAT(with_period(period), Not(HasSubstr("note: modes up to"))) << excitation << period;
   }
+  EXPECT_THAT(
+      in_one_line(run({"simulate", "--duration", "1"}).output),
+      AllOf(HasSubstr("state damping.kelvin_voigt in its file"), Not(HasSubstr("--period"))));
 }
 
 TEST_F(Simulate, APrbsASineAndAStepAreRuns) {

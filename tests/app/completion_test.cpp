@@ -56,8 +56,9 @@ TEST(Completion, BashOffersFilesAndFoldersAndNothingForANumber) {
 }
 
 TEST(Completion, FishOffersCommandsOptionsAndWords) {
-  EXPECT_THAT(fish_offers("flexarm comp"),
-              AllOf(HasSubstr("compare\tCompare the three formulations"), HasSubstr("completion\t")));
+  EXPECT_THAT(
+      fish_offers("flexarm comp"),
+      AllOf(HasSubstr("compare\tCompare the three formulations"), HasSubstr("completion\t")));
   EXPECT_THAT(fish_offers("flexarm modes --pay"), HasSubstr("--payload-mass\t"));
   EXPECT_THAT(fish_offers("flexarm modes --formulation "), HasSubstr("assumed_modes\t"));
   EXPECT_THAT(fish_offers("flexarm modes --sensor hub_angle,tip_a"),

@@ -128,8 +128,8 @@ TEST_F(FigureOptionsOf, AreThoseOfEveryCommandThatDraws) {
 }
 
 TEST_F(FigureOptionsOf, AFolderWithPdfAndPngIsReplacedByForce) {
-  const std::vector<std::string> simulate = {
-      "simulate", "rig.toml", "--duration", "1", "--out", "out", "--force", "--figure-format"};
+  const std::vector<std::string> simulate = {"simulate", "rig.toml", "--duration",     "1", "--out",
+                                             "out",      "--force",  "--figure-format"};
   auto with = [&](const char* formats) {
     auto arguments = simulate;
     arguments.emplace_back(formats);

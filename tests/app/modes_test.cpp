@@ -70,7 +70,8 @@ TEST_F(Modes, TheCertificateIsOfTheExactRootsWhicheverFormulationIsShown) {
 TEST_F(Modes, MoreModesThanADiscreteModelIsMadeForAreRefused) {
   const Ended ended = run({"modes", "--formulation", "fem", "--modes", "1000"});
   EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.errors, HasSubstr("--modes: needs 1000 roots; must be at most 90 for fem; exact_tf"));
+  EXPECT_THAT(ended.errors,
+              HasSubstr("--modes: needs 1000 roots; must be at most 90 for fem; exact_tf"));
 }
 
 TEST_F(Modes, RootsThatAModelDoesNotHaveAreCounted) {

@@ -29,6 +29,9 @@ Ended run_flexarm(const std::vector<std::string>& arguments, const std::string& 
 /// The same, with `signal` sent as soon as the program has been blocked for a while.
 Ended interrupt_flexarm(const std::vector<std::string>& arguments, int signal);
 
+/// Returns the processor time of all programs that were run to their end [s].
+double processor_s();
+
 /// Standard output of a shell command in `folder`, empty where it does not start.
 std::string shell_output(const std::string& command, const std::string& folder = ".");
 

@@ -1,3 +1,4 @@
+#include "measured/files/text_file.hpp"
 #include "tests/app/flexarm_fixture.hpp"
 
 #include <fmt/format.h>
@@ -6,11 +7,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <iostream>
+#include <iterator>
 #include <random>
+#include <sstream>
 #include <string>
-#include <sys/resource.h>
 #include <vector>
 
 namespace flexarm::testing_app {
@@ -18,27 +18,17 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Processor time of the programs that were run [s].
-double processor_s() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 // A user waits so long for a result.
 constexpr double kMost_s = 20.0;
 
 /// An arm of a beam of 0.3 to 1.5 m by chance, and how it is excited.
-struct RandomSession {
+struct RandomArm {
   std::string arm;
   std::string sensors;
   std::string excitation;
 };
 
-RandomSession random_session(unsigned seed) {
+RandomArm random_session(unsigned seed) {
   std::mt19937_64 bits(seed);
   // Not std::uniform_real_distribution, whose numbers differ between libraries.
   const auto between = [&bits](double from, double to) {
@@ -55,7 +45,7 @@ RandomSession random_session(unsigned seed) {
   const double width = thickness * between(4.0, 10.0);
   const double mass = length * thickness * width * material.density;
   const double hub = mass * length * length * std::pow(10.0, between(-2.5, 0.5));
-  RandomSession made;
+  RandomArm made;
   made.arm = fmt::format(
       "name = \"random {}\"\n[beam]\nlength = {}\nwidth = {}\nthickness = {}\ndensity = {}\n"
       "youngs_modulus = {}\n[hub]\ninertia = {}\n",
@@ -71,11 +61,12 @@ RandomSession random_session(unsigned seed) {
   made.sensors = fmt::format("hub_angle,hub_velocity,tip_acceleration,strain@{:.3f}",
                              length * between(0.02, 0.5));
   const double torque = (hub + mass * length * length / 3.0) * between(1.0, 6.0);
-  const std::array<std::string, 5> excitations = {
+  const std::array<std::string, 6> excitations = {
       fmt::format("bang-bang:amplitude={}", torque),
       fmt::format("random:rms={},to=60", torque / 3.0),
       fmt::format("multisine:rms={},to=40", torque / 3.0),
       fmt::format("prbs:amplitude={},clock=0.02", torque / 3.0),
+      fmt::format("prbs:amplitude={}", torque / 3.0),
       fmt::format("chirp:amplitude={},to=50", torque / 3.0)};
   made.excitation = excitations[bits() % excitations.size()];
   return made;
@@ -90,8 +81,25 @@ class Session : public Flexarm {
     return Json::parse(text_of("d.json")).at("verdict").get<std::string>();
   }
 
-  /// Simulates and diagnoses; returns the processor time of both [s].
-  double expect_adequate(const RandomSession& session) const {
+  /// Poles by the fit have the frequency of the order they are given.
+  static void expect_poles_of_the_arm(const Json& identified) {
+    constexpr double kOff_percent = 0.1;
+    constexpr double kPeaks_percent = 7.0;  // of readings by peaks: compare::kSamePole
+    int poles = 0;
+    for (const auto& reading : identified["readings"]) {
+      for (const auto& root : reading["roots"]) {
+        if (root["feature"] != "pole" || root["order"].is_null()) continue;
+        ++poles;
+        const double within = reading["method"] == "fit" ? kOff_percent : kPeaks_percent;
+        EXPECT_LT(std::abs(root["error_percent"].get<double>()), within)
+            << reading["method"] << root;
+      }
+    }
+    EXPECT_GE(poles, 5);
+  }
+
+  /// Simulates and diagnoses.
+  void expect_adequate(const RandomArm& session) const {
     write("rig.toml", session.arm);
     const double before_s = processor_s();
     EXPECT_EQ(run({"simulate", "rig.toml", "--sensor", session.sensors, "--excitation",
@@ -99,18 +107,51 @@ class Session : public Flexarm {
                   .status,
               0);
     EXPECT_EQ(verdict(), "adequate") << session.excitation << "\n" << session.arm;
-    const double used_s = processor_s() - before_s;
-    EXPECT_LT(used_s, kMost_s) << session.excitation << "\n" << session.arm;
-    return used_s;
+    EXPECT_LT(processor_s() - before_s, kMost_s) << session.excitation << "\n" << session.arm;
   }
 };
 
+/// The commands of the README's block that begins with `flexarm doctor`, without their comments.
+std::vector<std::vector<std::string>> commands_of_readme() {
+  const std::string text = measured::read_text_file(FLEXARM_SOURCE_DIR "/README.md", 1 << 20);
+  std::istringstream lines(text.substr(text.find("\nflexarm doctor") + 1));
+  std::vector<std::vector<std::string>> commands;
+  for (std::string line; std::getline(lines, line) && line != "```";) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string program;
+    words >> program;
+    commands.emplace_back(std::istream_iterator<std::string>(words),
+                          std::istream_iterator<std::string>());
+  }
+  return commands;
+}
+
 TEST_F(Session, OfTheReadmeIsAdequate) {
   const double before_s = processor_s();
-  EXPECT_EQ(run({"new", "rig.toml"}).status, 0);
-  EXPECT_EQ(run({"simulate", "rig.toml", "--out", "simulated"}).status, 0);
-  EXPECT_EQ(verdict(), "adequate");
+  const auto commands = commands_of_readme();
+  ASSERT_EQ(commands.size(), 7U);
+  for (auto command : commands) {
+    if (command.front() == "identify") command.insert(command.end(), {"--json", "i.json"});
+    if (command.front() == "diagnose") command.insert(command.end(), {"--json", "d.json"});
+    const Ended ended = run(command);
+    EXPECT_EQ(ended.status, 0) << command.front() << "\n" << ended.output << ended.errors;
+  }
+  EXPECT_EQ(Json::parse(text_of("d.json"))["verdict"], "adequate");
   EXPECT_LT(processor_s() - before_s, kMost_s);
+  expect_poles_of_the_arm(Json::parse(text_of("i.json")));
+}
+
+/// Modes far above the Nyquist frequency of noise-free data are seen as aliases.
+TEST_F(Session, EveryPoleThatIsIdentifiedIsOneOfTheArm) {
+  run({"new", "rig.toml"});
+  for (const char* excitation :
+       {"prbs:clock=0.01", "random:to=400", "multisine:to=300", "chirp:to=200"}) {
+    EXPECT_EQ(
+        run({"simulate", "rig.toml", "--excitation", excitation, "--out", "s", "--force"}).status,
+        0);
+    EXPECT_EQ(run({"identify", "s/measurement.toml", "--json", "i.json"}).status, 0);
+    expect_poles_of_the_arm(Json::parse(text_of("i.json")));
+  }
 }
 
 TEST_F(Session, HiddenFrictionAndRootComplianceAreExplained) {
@@ -122,19 +163,13 @@ TEST_F(Session, HiddenFrictionAndRootComplianceAreExplained) {
   EXPECT_EQ(verdict(), "explained");
 }
 
-TEST_F(Session, OfRandomArmsIsAdequate) {
-  for (unsigned seed = 1; seed <= 3; ++seed) expect_adequate(random_session(seed));
-}
+/// Seeds.
+class RandomSession : public Session, public testing::WithParamInterface<unsigned> {};
 
-// Takes minutes. FLEXARM_SESSION_SEED is the first of twenty seeds.
-TEST_F(Session, DISABLED_OfTwentyRandomArmsIsAdequate) {
-  constexpr unsigned kSessions = 20;
-  const char* given = std::getenv("FLEXARM_SESSION_SEED");
-  const auto first = static_cast<unsigned>(given != nullptr ? std::stoul(given) : 1);
-  for (unsigned seed = first; seed < first + kSessions; ++seed) {
-    const double used_s = expect_adequate(random_session(seed));
-    std::cout << fmt::format("seed {}: {:.1f} s of processor\n", seed, used_s);
-  }
+INSTANTIATE_TEST_SUITE_P(, RandomSession, testing::Range(1U, 21U));
+
+TEST_P(RandomSession, IsAdequate) {
+  expect_adequate(random_session(GetParam()));
 }
 
 }  // namespace

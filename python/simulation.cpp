@@ -155,8 +155,9 @@ Experiment simulated(const arm::Arm& arm, const Settings& settings, const py::ob
     Experiment experiment{arm, settings.runs.runs(arm, {}), settings.options, {}};
     const auto sensors = settings.sensors.sensors(arm);
     experiment::require_valid(settings.options, experiment.plan, sensors, as_argument);
-    const double pieces =
-        static_cast<double>(experiment.plan.size()) * (settings.options.check_step ? 2.0 : 1.0);
+    // At most: the truncation twice; each run, its further modes, and its smaller steps.
+    const double pieces = 2.0 + static_cast<double>(experiment.plan.size()) *
+                                    (settings.options.check_step ? 3.0 : 2.0);
     double done = -1.0;
     experiment.simulated = experiment::simulate_experiment(
         arm, experiment.plan, sensors, settings.options, [&](const std::string&, std::size_t) {
@@ -165,6 +166,7 @@ Experiment simulated(const arm::Arm& arm, const Settings& settings, const py::ob
             return state.reach((done + fraction) / pieces);
           };
         });
+    state.reach(1.0);
     return experiment;
   });
 }

@@ -188,8 +188,8 @@ class Measurements(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.here = pathlib.Path(cls.folder.name)
         cls.arm, run = simulated()
-        cls.run = flexarm.TimeRun(run.to_pandas(), id="log")
-        cls.measurement = flexarm.Measurement(cls.arm, cls.run, "rig")
+        cls.log = flexarm.TimeRun(run.to_pandas(), id="log")
+        cls.measurement = flexarm.Measurement(cls.arm, cls.log, "rig")
         cls.measurement.write(cls.here / "rig")
         cls.file = cls.here / "rig" / "measurement.toml"
 
@@ -200,7 +200,7 @@ class Measurements(unittest.TestCase):
     def test_what_is_written_is_read_back(self):
         read = flexarm.read_measurement(self.file)
         self.assertEqual((read.name, read.arm), ("rig", self.arm))
-        np.testing.assert_array_equal(read.runs[0]["hub_angle"], self.run["hub_angle"])
+        np.testing.assert_array_equal(read.runs[0]["hub_angle"], self.log["hub_angle"])
         self.assertIn("rig", refusal(self, lambda: self.measurement.write(self.here / "rig")))
 
     def test_an_identification_is_that_of_the_file(self):
@@ -211,7 +211,7 @@ class Measurements(unittest.TestCase):
 
     def test_an_identification_needs_no_arm(self):
         poles = [root.frequency_Hz for root in flexarm.identify(self.measurement).roots(feature="pole", method="fit")]
-        without = flexarm.identify(flexarm.Measurement(None, self.run))
+        without = flexarm.identify(flexarm.Measurement(None, self.log))
         self.assertTrue(poles)
         self.assertEqual([root.frequency_Hz for root in without.roots(feature="pole", method="fit")], poles)
 
@@ -221,22 +221,22 @@ class Measurements(unittest.TestCase):
         self.assertEqual(ours.to_json(), theirs.to_json())
 
     def test_what_cannot_be_is_named(self):
-        again = flexarm.TimeRun(self.run.to_pandas(), id="log")
-        without = flexarm.Measurement(None, self.run)
+        again = flexarm.TimeRun(self.log.to_pandas(), id="log")
+        without = flexarm.Measurement(None, self.log)
         for call, error, part in (
             (lambda: flexarm.Measurement(self.arm, []), flexarm.InputError, "runs: none; needs one or more"),
-            (lambda: flexarm.Measurement(self.arm, [self.run, again]), flexarm.InputError,
+            (lambda: flexarm.Measurement(self.arm, [self.log, again]), flexarm.InputError,
              "runs: two have the id log"),
-            (lambda: flexarm.TimeRun(self.run.to_pandas(), id=3), TypeError, "id = 3: must be text"),
-            (lambda: flexarm.TimeRun(self.run.to_pandas(), payload_mass_kg="x"), TypeError,
+            (lambda: flexarm.TimeRun(self.log.to_pandas(), id=3), TypeError, "id = 3: must be text"),
+            (lambda: flexarm.TimeRun(self.log.to_pandas(), payload_mass_kg="x"), TypeError,
              "payload_mass_kg = 'x': must be a number [kg] or None"),
             (lambda: flexarm.ModalRun(3), TypeError, "entries: must be a list of ModalEntry"),
             (lambda: flexarm.Measurement(self.arm, [1]), TypeError, "runs: must be a TimeRun"),
-            (lambda: flexarm.Measurement(1, self.run), TypeError, "arm: int; must be an Arm or the path"),
+            (lambda: flexarm.Measurement(1, self.log), TypeError, "arm: int; must be an Arm or the path"),
             (lambda: flexarm.diagnose(without), flexarm.InputError, "measurement: has no arm"),
-            (lambda: flexarm.diagnose(self.run), TypeError,
+            (lambda: flexarm.diagnose(self.log), TypeError,
              "measurement: TimeRun; must be the path of a measurement.toml, or Measurement(arm, runs)"),
-            (lambda: flexarm.identify(self.run.to_pandas()), TypeError, "measurement: DataFrame; must be"),
+            (lambda: flexarm.identify(self.log.to_pandas()), TypeError, "measurement: DataFrame; must be"),
         ):
             self.assertIn(part, refusal(self, call, error))
 

@@ -58,7 +58,9 @@ class Pip(unittest.TestCase):
         shown = self.call(self.bin / "pip", "show", "-f", "flexarm")
         for part in ("Requires: numpy", "bin/flexarm", "flexarm/_flexarm.pyi", "share/man/man1/flexarm.1"):
             self.assertIn(part, shown)
-        self.call(self.bin / "pip", "check")
+        # Packages of the system may lack others.
+        checked = subprocess.run([self.bin / "pip", "check"], env=self.environment, capture_output=True, text=True)
+        self.assertNotIn("flexarm", checked.stdout)
 
 
 if __name__ == "__main__":

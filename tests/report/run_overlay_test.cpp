@@ -67,7 +67,8 @@ TEST(RunOverlay, AClosedLoopIsDrivenByItsReference) {
   compare::MeasuredTimeRun run = sample_run(100, 0);
   run.closed_loop = true;
   run.reference = {"rad", std::vector<double>(100, 0.3)};
-  const auto& input = run_overlay_figure(run).stacks[0].panels.back();
+  const Figure figure = run_overlay_figure(run);
+  const auto& input = figure.stacks[0].panels.back();
   EXPECT_EQ(input.y.label, "reference");
   EXPECT_EQ(input.series[0].y.front(), 0.3);
 }

@@ -230,6 +230,7 @@ class Poles(ReportedInput):
                 (self.place / "run/arm.toml").write_text(arm.replace("= 2.3", f"= {rigidity}"),
                                                          encoding="utf-8")
                 self.run_program("identify", "run/measurement.toml", "--json", "found.json")
+                fitted = set()
                 for reading in self.json("found.json")["readings"]:
                     # Circles and peaks are coarser than the rational fit.
                     within = 2e-3 if reading["method"] == "fit" else 0.07
@@ -240,7 +241,8 @@ class Poles(ReportedInput):
                         true_Hz = self.TRUE_HZ[order]
                         self.assertAlmostEqual(found_Hz, true_Hz, delta=within * true_Hz)
                     if reading["method"] == "fit":
-                        self.assertEqual(set(poles), set(self.TRUE_HZ))
+                        fitted |= set(poles)
+                self.assertEqual(fitted, set(self.TRUE_HZ))
 
 
 class LateTorque(ReportedInput):

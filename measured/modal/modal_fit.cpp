@@ -27,8 +27,7 @@ constexpr double kSureDecay = 4.0;
 constexpr double kNearDamping = 0.3;
 /// Residuals below this share of the reading are rounding, whatever their colour.
 constexpr double kOnlyRounding = 1e-6;
-/// No record is so free of noise: a fit that leaves less in every sensor has converged, whatever
-/// its steps in its tiny standard errors are.
+/// A fit that leaves less of every sensor has converged, whatever its steps in standard errors.
 constexpr double kBelowAnyNoise = 1e-5;
 constexpr double kAfterChart = 0.1;  // shares of the progress
 constexpr double kOfSearch = 0.55;
@@ -307,11 +306,10 @@ void count_unsure_blocks(ModalFit& fit) {
   fit.covariance = counted;
 }
 
-/// Without noise all that there is has been found.
-bool leaves_noise(const ResidualStudy& study) {
-  return std::ranges::any_of(study.sensors, [](const ResidualQuality& residual) {
-    return residual.relative > kOnlyRounding;
-  });
+/// Whether more than this share of the reading of some sensor is left.
+bool leaves_more(const ResidualStudy& study, double share) {
+  return !std::ranges::all_of(study.sensors,
+                              [&](const auto& left) { return left.relative <= share; });
 }
 
 ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
@@ -336,11 +334,9 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   fit.order_trials = found.trials;
   fit.order_reason = found.reason;
   fit.aliases = found.aliases;
-  fit.iterations = best.iterations;
-  fit.converged = best.converged;
   fit.cancelled = best.cancelled;
   ResidualStudy study = study_residuals(task.all, best);
-  if (!best.cancelled && task.forced && leaves_noise(study)) {
+  if (!best.cancelled && task.forced && leaves_more(study, kOnlyRounding)) {
     ModesBeyond beyond = with_modes_beyond(best, found.choices, fit.band);
     beyond.choices.jumps = options.torque_hold == TorqueHold::zero;
     const ProjectionOptions projection{.most_iterations = options.most_iterations};
@@ -351,12 +347,9 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
       best = fit_blocks(task.all, task.sensors, ascending, beyond.choices, projection);
     }
     study = study_residuals(task.all, best);
-    fit.iterations = best.iterations;
-    fit.converged = best.converged;
   }
-  fit.converged = fit.converged || std::ranges::all_of(study.sensors, [](const auto& residual) {
-                    return residual.relative <= kBelowAnyNoise;
-                  });
+  fit.iterations = best.iterations;
+  fit.converged = best.converged || !leaves_more(study, kBelowAnyNoise);
   fit.blocks = best.blocks;
   const bool coloured = !std::ranges::all_of(study.sensors, &ResidualQuality::is_noise);
   fit.robust_covariance = options.robust.value_or(coloured);

@@ -182,10 +182,14 @@ ForeignFile universal_contents(std::string_view bytes, const std::string& file_n
 void add_column_responses(ForeignFile& file) {
   const auto& columns = file.table.columns;
   if (std::ranges::count(columns, "sensor", &ForeignColumn::name) > 0) return;
-  ResponseColumns made = responses_in(file.table);
-  std::ranges::move(made.responses, std::back_inserter(file.responses));
-  std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
-  file.incomplete_response = std::move(made.incomplete);
+  try {
+    ResponseColumns made = responses_in(file.table);
+    std::ranges::move(made.responses, std::back_inserter(file.responses));
+    std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
+    file.incomplete_response = std::move(made.incomplete);
+  } catch (const InputError& error) {
+    file.response_fault = error.what();  // the user may state the parts, or read signals in time
+  }
 }
 
 /// "-1" alone is the first line of a universal file.
@@ -234,11 +238,7 @@ ForeignFile foreign_contents(const std::string& bytes, const std::string& name,
   } else {
     file.table = parse_foreign_table(bytes, name);
   }
-  try {
-    add_column_responses(file);
-  } catch (const InputError& error) {
-    throw arm::located(error, name, 0);
-  }
+  add_column_responses(file);
   if (file.table.columns.empty() && file.responses.empty() && file.modes.empty()) {
     throw InputError(fmt::format("{}: {} without time signals, frequency responses or modes", name,
                                  to_string(file.format)));
@@ -278,6 +278,7 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
   try {
     std::vector<std::string> names;
     for (const auto& response : file.responses) names.push_back(response.name);
+    if (!file.response_fault.empty()) throw InputError(file.response_fault);
     if (names.empty()) {
       throw InputError(
           "no frequency responses; signals in time become a measurement with  flexarm import");

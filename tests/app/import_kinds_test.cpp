@@ -196,6 +196,12 @@ TEST_F(ImportKinds, FrequencyResponsesInColumnsAreRead) {
                               "hub_angle.magnitude=b:dB", "--column", "hub_angle.phase=c:deg"}));
   EXPECT_THAT(import({"plain.csv", "--kind", "frf"}).errors,
               HasSubstr("--kind frf: no columns of a frequency response are recognised"));
+  write("unclear.csv", "f,mag,phase\n1,1,-8\n2,1,-9\n");
+  EXPECT_THAT(import({"unclear.csv"}).errors, HasSubstr("unit not given, deg or rad; state it"));
+  const auto stated =
+      response({"unclear.csv", "--column", "frequency=f:Hz", "--column",
+                "hub_angle.magnitude=mag:1", "--column", "hub_angle.phase=phase:deg"});
+  EXPECT_EQ(stated.channels.at(0).response.at(0), std::polar(1.0, -8.0 * std::numbers::pi / 180.0));
   write("half.csv", "Frequency (Hz),Magnitude (dB)\n1,2\n2,3\n");
   EXPECT_THAT(import({"half.csv"}).errors,
               HasSubstr("no frequency response: response without a name: magnitude without phase"));

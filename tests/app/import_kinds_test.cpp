@@ -269,6 +269,10 @@ TEST_F(ImportKinds, ModesOfAUniversalFileAreAModalTable) {
   EXPECT_NEAR(*table[1].damping_ratio, 0.02, 1e-6);
   EXPECT_THAT(output_,
               AllOf(HasSubstr("mode 1 at 0 Hz, of the rigid body"), HasSubstr("shape of mode 2")));
+  write("modes.uff", mode(2, 2, {11.86, 1.0, 1.5, 0.0}));
+  EXPECT_THAT(import({"modes.uff"}).errors,
+              HasSubstr("mode 2 at 11.86 Hz: damping ratio 1.5: must be from -1 to 1, a fraction, "
+                        "not in per cent"));
 }
 
 TEST_F(ImportKinds, ClockTimesPastMidnightAreEven) {

@@ -27,7 +27,7 @@ constexpr string_view kImaginaryWords[] = {"im",         "imag",    "imaginary",
 constexpr string_view kCoherenceWords[] = {"coh", "coherence", "kohaerenz", "gamma"};
 /// Words beside those of a part that tell nothing more.
 constexpr string_view kFillers[] = {"part", "of", "log", "lin", "linear", "teil", "partie"};
-constexpr string_view kSquareWords[] = {"squared", "square", "quadrat", "sq"};
+constexpr string_view kSquareWords[] = {"squared", "quadrat", "sq"};
 constexpr string_view kLagWords[] = {"lag", "lags", "lagging"};
 constexpr string_view kFrequencyWords[] = {"f",           "freq",     "freqs",     "frequency",
                                            "frequencies", "frequenz", "frequence", "hz",

@@ -135,7 +135,8 @@ class ResponseMaker {
     made.name = parts.name.empty() ? table_.columns[first->column].name : parts.name;
     require_part(*first);
     require_part(*second);
-    const ResponseUnit unit = unit_of_response(first->unit);
+    const bool is_in_second = !parts.is_polar() && first->unit.empty();
+    const ResponseUnit unit = unit_of_response(is_in_second ? second->unit : first->unit);
     made.unit = unit.unit;
     made.per = unit.per;
     for (const auto* part : {&first, &second, &coherence}) {
@@ -143,7 +144,7 @@ class ResponseMaker {
     }
     const bool is_polar = parts.is_polar();
     const bool is_in_decibel = is_polar && decibel(*first);
-    if (!is_polar) require_unit_of_response(*second);
+    if (!is_polar) require_alike(*first, *second);
     require_unit_of_response(*first);
     const double radian = is_polar ? radians_in(*second) : 1.0;
     std::vector<std::size_t> lines = lines_of(made.columns);
@@ -155,7 +156,8 @@ class ResponseMaker {
       made.response.push_back(is_polar ? std::polar(1.0, b * radian) *
                                              (is_in_decibel ? std::pow(10.0, a / kDecibels) : a)
                                        : std::complex<double>(a, b));
-      const double coherent = coherence ? value(*coherence, line) : kUnknown;
+      const double coherent =
+          coherence ? value(*coherence, line) * (coherence->unit == "%" ? 0.01 : 1.0) : kUnknown;
       made.coherence.push_back(coherent > 0.0 && coherent <= 1.0 ? coherent : kUnknown);
     }
     return made;
@@ -193,6 +195,15 @@ class ResponseMaker {
   void require_part(const PartColumn& part) const {
     if (part.fault.empty()) return;
     throw InputError(fmt::format("{} {}: {}", to_string(part.part), shown(part), part.fault));
+  }
+
+  /// Parts of which one tells no unit have that of the other.
+  void require_alike(const PartColumn& real, const PartColumn& imaginary) const {
+    require_unit_of_response(imaginary);
+    if (real.unit.empty() || imaginary.unit.empty() || real.unit == imaginary.unit) return;
+    throw InputError(fmt::format("real part {} in {}, imaginary part {} in {}: must be in one unit",
+                                 shown(real), arm::shown(real.unit), shown(imaginary),
+                                 arm::shown(imaginary.unit)));
   }
 
   /// A magnitude, a real or an imaginary part is in the unit of a sensor, perhaps per torque.

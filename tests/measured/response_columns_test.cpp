@@ -123,6 +123,7 @@ TEST(ResponseColumns, WhatIsNotAMagnitudeOrAPhaseIsRefused) {
         Header{"f_Hz,Magnitude (dBm),Phase (deg)", "in dBm: must be"},
         Header{"f_Hz,Magnitude (Nm/rad),Phase (deg)", "a stiffness, not a response to a torque"},
         Header{"f_Hz,Real (Nm/rad),Imag (Nm/rad)", "a stiffness, not a response to a torque"},
+        Header{"f_Hz,Real (rad/Nm),Imag (deg/Nm)", "must be in one unit"},
         Header{"f_Hz,Magnitude squared,Phase (deg)", "magnitude Magnitude squared: a square"},
         Header{"f_Hz,Mag^2,Phase (deg)", "magnitude Mag^2: a square"},
         Header{"f_Hz,Gain (dB),Phase lag (deg)", "phase Phase lag (deg): a lag"}}) {
@@ -143,6 +144,14 @@ TEST(ResponseColumns, AnAbsoluteMagnitudeAndASquaredCoherenceAreRead) {
   EXPECT_EQ(made.responses[0].response[0], Complex(2.0, 0.0));
   EXPECT_EQ(made.responses[0].unit, "");
   EXPECT_THAT(made.responses[0].coherence, ElementsAre(0.5, 0.5));
+}
+
+TEST(ResponseColumns, ACoherenceInPerCentIsAFraction) {
+  const auto made = responses_in(
+      parse_foreign_table("f_Hz,Real,Imag (deg/Nm),Coherence (%)\n1,2,0,50\n2,3,0,100\n", "a.csv"));
+  ASSERT_EQ(made.responses.size(), 1U);
+  EXPECT_EQ(made.responses[0].unit, "deg");
+  EXPECT_THAT(made.responses[0].coherence, ElementsAre(0.5, 1.0));
 }
 
 TEST(ResponseColumns, AnAssumedUnitOfFrequenciesIsSaid) {

@@ -124,6 +124,7 @@ TEST(ResponseColumns, WhatIsNotAMagnitudeOrAPhaseIsRefused) {
         Header{"f_Hz,Magnitude (Nm/rad),Phase (deg)", "a stiffness, not a response to a torque"},
         Header{"f_Hz,Real (Nm/rad),Imag (Nm/rad)", "a stiffness, not a response to a torque"},
         Header{"f_Hz,Real (rad/Nm),Imag (deg/Nm)", "must be in one unit"},
+        Header{"f_Hz,Real (rad/Nm),Imag (deg/Nm)", "must be in one unit"},
         Header{"f_Hz,Magnitude squared,Phase (deg)", "magnitude Magnitude squared: a square"},
         Header{"f_Hz,Mag^2,Phase (deg)", "magnitude Mag^2: a square"},
         Header{"f_Hz,Gain (dB),Phase lag (deg)", "phase Phase lag (deg): a lag"}}) {

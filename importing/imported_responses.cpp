@@ -115,7 +115,12 @@ void read_responses(const ForeignFile& file, const FileChoice& choice, ImportedF
 
 void take_typed_responses(ForeignFile& file, const FileChoice& choice) {
   const auto parts = choice.columns.response_parts(measured::labels_of(file.table));
-  if (parts.empty()) return;
+  if (parts.empty()) {
+    const bool is_for_time = choice.kind == measured::RunKind::time;
+    if (!is_for_time && !file.response_fault.empty()) throw InputError(file.response_fault);
+    return;
+  }
+  file.response_fault.clear();
   auto made = measured::responses_of(file.table, parts);
   file.responses = std::move(made.responses);
   for (auto& response : file.responses) {

@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <iterator>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -97,9 +96,43 @@ void add_signals(const std::vector<const UniversalFunction*>& functions, Foreign
   }
 }
 
-/// Hz in one of the frequency axis' unit.
-double hertz_of(const UniversalAxis& axis) {
-  return canonical_unit(axis.units) == "rad/s" ? 1.0 / (2.0 * std::numbers::pi) : 1.0;
+/// Hz in one of the frequency axis' unit, which is Hz where it is not told.
+double hertz_of(const UniversalAxis& axis, const std::string& name, ForeignFile& file) {
+  const std::string unit = canonical_unit(told(axis.units));
+  if (unit.empty()) {
+    file.table.assumptions.push_back(
+        fmt::format("unit of the frequencies of {} not given; Hz assumed", arm::shown(name)));
+    return 1.0;
+  }
+  const double hertz = hertz_in_one(unit);
+  if (hertz > 0.0) return hertz;
+  throw InputError(fmt::format("{}: frequencies in {}; must be in Hz, kHz, rad/s or rpm",
+                               arm::shown(name), arm::shown(unit)));
+}
+
+/// Says where the node's direction is against the axis, and where only data set 164 has units.
+void note_conventions(const UniversalFile& universal,
+                      const std::vector<const UniversalFunction*>& functions, ForeignFile& file) {
+  const auto names = names_of(functions);
+  std::vector<std::string> without_unit;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    const UniversalFunction& function = *functions[i];
+    const bool is_response = function.type == kUniversalFrequencyResponse;
+    if ((function.response.direction < 0) != (is_response && function.reference.direction < 0)) {
+      file.table.assumptions.push_back(fmt::format(
+          "{}: {}{}; the sign of a direction is not applied, a negative SCALE of --column applies "
+          "it",
+          arm::shown(names[i]), place_of(function.response),
+          is_response ? " per " + place_of(function.reference) : ""));
+    }
+    if (unit_of_axis(function.ordinate_axis, names[i]).empty()) without_unit.push_back(names[i]);
+  }
+  if (universal.units.empty() || without_unit.empty()) return;
+  file.table.assumptions.push_back(
+      fmt::format("data set 164 has units, {}, which are not applied; units not given: {}; state "
+                  "them with --column QUANTITY=NAME:UNIT",
+                  arm::shown(universal.units),
+                  arm::shown(fmt::format("{}", fmt::join(without_unit, ", ")), 400)));
 }
 
 void add_responses(const std::vector<const UniversalFunction*>& functions, ForeignFile& file) {
@@ -114,11 +147,15 @@ void add_responses(const std::vector<const UniversalFunction*>& functions, Forei
         function.abscissa,
         {},
         std::vector<double>(function.abscissa.size(), kUnknown)};
-    const double factor = hertz_of(function.abscissa_axis);
+    if (function.imaginary.empty()) {
+      throw InputError(fmt::format(
+          "{}: frequency response of real numbers, a magnitude without phase; must be complex",
+          arm::shown(names[i])));
+    }
+    const double factor = hertz_of(function.abscissa_axis, names[i], file);
     for (auto& frequency : response.frequency_Hz) frequency *= factor;
     for (std::size_t k = 0; k < function.real.size(); ++k) {
-      response.response.emplace_back(function.real[k],
-                                     function.imaginary.empty() ? 0.0 : function.imaginary[k]);
+      response.response.emplace_back(function.real[k], function.imaginary[k]);
     }
     file.responses.push_back(std::move(response));
   }
@@ -164,9 +201,15 @@ ForeignFile universal_contents(std::string_view bytes, const std::string& file_n
           fmt::format("{}: a function of type {}", function.id[0], function.type));
     }
   }
-  add_signals(signals, file);
-  add_responses(responses, file);
+  try {
+    add_signals(signals, file);
+    add_responses(responses, file);
+  } catch (const InputError& error) {
+    throw arm::located(error, file_name, 0);
+  }
   add_coherences(universal, file);
+  note_conventions(universal, signals, file);
+  note_conventions(universal, responses, file);
   for (const auto& mode : universal.modes) {
     const bool is_told = mode.pole && std::ranges::count(file.modes, *mode.pole) > 0;
     if (mode.pole && !is_told) file.modes.push_back(*mode.pole);
@@ -182,10 +225,14 @@ ForeignFile universal_contents(std::string_view bytes, const std::string& file_n
 void add_column_responses(ForeignFile& file) {
   const auto& columns = file.table.columns;
   if (std::ranges::count(columns, "sensor", &ForeignColumn::name) > 0) return;
-  ResponseColumns made = responses_in(file.table);
-  std::ranges::move(made.responses, std::back_inserter(file.responses));
-  std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
-  file.incomplete_response = std::move(made.incomplete);
+  try {
+    ResponseColumns made = responses_in(file.table);
+    std::ranges::move(made.responses, std::back_inserter(file.responses));
+    std::ranges::move(made.notes, std::back_inserter(file.table.assumptions));
+    file.incomplete_response = std::move(made.incomplete);
+  } catch (const InputError& error) {
+    file.response_fault = error.what();  // the user may state the parts, or read signals in time
+  }
 }
 
 /// "-1" alone is the first line of a universal file.
@@ -234,11 +281,7 @@ ForeignFile foreign_contents(const std::string& bytes, const std::string& name,
   } else {
     file.table = parse_foreign_table(bytes, name);
   }
-  try {
-    add_column_responses(file);
-  } catch (const InputError& error) {
-    throw arm::located(error, name, 0);
-  }
+  add_column_responses(file);
   if (file.table.columns.empty() && file.responses.empty() && file.modes.empty()) {
     throw InputError(fmt::format("{}: {} without time signals, frequency responses or modes", name,
                                  to_string(file.format)));
@@ -278,6 +321,7 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
   try {
     std::vector<std::string> names;
     for (const auto& response : file.responses) names.push_back(response.name);
+    if (!file.response_fault.empty()) throw InputError(file.response_fault);
     if (names.empty()) {
       throw InputError(
           "no frequency responses; signals in time become a measurement with  flexarm import");

@@ -25,6 +25,7 @@ struct ForeignFile {
   ModalTable modes;                   ///< poles of a universal file
   std::vector<std::string> left_out;  ///< what is neither, a phrase each
   std::string incomplete_response;    ///< what a response in columns lacks; empty: there is none
+  std::string response_fault;         ///< why a response in columns is not read; empty: none
 };
 
 /// Reads a file by what it begins with: a universal file, a MATLAB 5 file, or delimited text.

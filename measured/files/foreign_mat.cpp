@@ -6,15 +6,15 @@
 #include "measured/files/mat_names.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/record_export.hpp"
+#include "measured/files/response_unit.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
-#include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -125,20 +125,44 @@ std::vector<T> signal_of(const MatArray<T>& matrix, std::size_t number) {
   return values;
 }
 
-/// Hz in one of the vector's unit; 0 for a vector that holds no frequencies.
-double hertz_of(std::string_view name) {
-  constexpr std::array<std::string_view, 5> kHertz = {"f", "freq", "freqs", "frequency", "hz"};
-  constexpr std::array<std::string_view, 4> kRadians = {"w", "omega", "freq_rad", "w_rad"};
-  const std::string field = mat_field(name);
-  const ColumnName split = split_column_name(field);
-  const auto is_one_of = [](const auto& names, std::string_view word) {
-    return std::ranges::count(names, word) > 0;
-  };
-  if (is_one_of(kRadians, field) || (split.unit == "rad/s" && is_one_of(kHertz, split.base))) {
-    return 1.0 / (2.0 * std::numbers::pi);
+/// The first vector of frequencies.
+struct Frequencies {
+  std::string path;
+  std::string unit;            ///< Hz, kHz, rad/s or rpm
+  bool is_unit_told = true;    ///< by the name or beside it; else Hz is assumed
+  std::vector<double> values;  ///< in that unit
+};
+
+std::optional<Frequencies> frequencies_in(const std::vector<MatVariable>& variables,
+                                          const MatNames& names) {
+  for (const auto& variable : variables) {
+    const auto* matrix = std::get_if<MatMatrix>(&variable.value);
+    const auto of_name = unit_of_frequency_name(variable.name);
+    if (matrix == nullptr || !of_name || std::min(matrix->rows, matrix->columns) != 1) continue;
+    const std::string told = names.of(variable.name, {""}).front().unit;
+    const std::string unit = !told.empty() ? told : of_name->empty() ? "Hz" : *of_name;
+    if (hertz_in_one(unit) > 0.0) {
+      return Frequencies{variable.name, unit, !told.empty() || !of_name->empty(), matrix->values};
+    }
+    if (names.told_frequency_unit(variable.name).empty()) continue;  // a force in N
+    throw InputError(fmt::format("{}: frequencies in {}; must be in Hz, kHz, rad/s or rpm",
+                                 arm::shown(variable.name), arm::shown(told)));
   }
-  const bool in_hertz = split.unit.empty() || split.unit == "Hz";
-  return in_hertz && is_one_of(kHertz, split.base) ? 1.0 : 0.0;
+  return std::nullopt;
+}
+
+/// The unit rad/s beside a response and a frequency of a structure may be of either.
+void require_clear_unit(const Frequencies& frequencies, const MatSignalName& signal) {
+  const auto owner = [](std::string_view path) { return path.substr(0, path.rfind('.') + 1); };
+  const bool is_of_name = !split_column_name(mat_field(signal.path)).unit.empty();
+  if (frequencies.is_unit_told || is_of_name || signal.unit != "rad/s" ||
+      owner(signal.path).empty() || owner(signal.path) != owner(frequencies.path)) {
+    return;
+  }
+  throw InputError(fmt::format(
+      "{}: unit not given, and the rad/s beside it may be that of {}; save the unit of the "
+      "frequencies as a text FrequencyUnit beside them, Hz or rad/s",
+      arm::shown(frequencies.path), arm::shown(signal.path)));
 }
 
 /// Whether it is more than a number or a text.
@@ -182,19 +206,11 @@ void use_paths_of_namesakes(ForeignTable& table) {
 
 void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
   const std::vector<MatVariable> variables = gathered_records(std::move(all));
-  std::vector<double> frequency_Hz;
+  const MatNames names(variables, file.left_out);
+  const auto frequencies = frequencies_in(variables, names);
+  const std::size_t lines = frequencies ? frequencies->values.size() : 0;
   for (const auto& variable : variables) {
-    const auto* matrix = std::get_if<MatMatrix>(&variable.value);
-    const double factor = matrix == nullptr ? 0.0 : hertz_of(variable.name);
-    if (factor == 0.0 || std::min(matrix->rows, matrix->columns) != 1) continue;
-    frequency_Hz = matrix->values;
-    for (auto& value : frequency_Hz) value *= factor;
-    file.table.assumptions.push_back(fmt::format(
-        "{} holds frequencies in {}", arm::shown(variable.name), factor == 1.0 ? "Hz" : "rad/s"));
-    break;
-  }
-  const MatNames names(variables);
-  for (const auto& variable : variables) {
+    if (is_description(variable.name)) continue;
     if (const auto* real = std::get_if<MatMatrix>(&variable.value)) {
       const auto signals = names.of(variable.name, signal_suffixes(*real));
       for (std::size_t j = 0; j < signals.size(); ++j) {
@@ -205,20 +221,29 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
       const auto signals = names.of(variable.name, signal_suffixes(*complex));
       for (std::size_t j = 0; j < signals.size(); ++j) {
         auto values = signal_of(*complex, j);
-        if (values.size() != frequency_Hz.size()) {
+        if (values.size() != lines) {
           file.left_out.push_back(
               fmt::format("{}: complex, and no vector of frequencies is as long", signals[j].path));
           continue;
         }
-        const std::size_t lines = values.size();
-        file.responses.push_back({signals[j].name, "", "", frequency_Hz, std::move(values),
-                                  std::vector<double>(lines, kUnknown)});
+        require_clear_unit(*frequencies, signals[j]);
+        std::vector<double> frequency_Hz = frequencies->values;
+        for (auto& value : frequency_Hz) value *= hertz_in_one(frequencies->unit);
+        const ResponseUnit unit = split_response_unit(signals[j].unit);
+        file.responses.push_back({signals[j].name, unit.unit, unit.per, std::move(frequency_Hz),
+                                  std::move(values), std::vector<double>(lines, kUnknown)});
       }
       if (!signals.empty()) continue;
     }
     // What structures say of their signals is no signal.
     if (variable.name.find('.') != std::string::npos && !is_large(variable)) continue;
     file.left_out.push_back(fmt::format("{}: no vector of numbers", variable.name));
+  }
+  if (!file.responses.empty()) {
+    file.table.assumptions.push_back(
+        fmt::format(fmt::runtime(frequencies->is_unit_told ? "{} holds frequencies in {}"
+                                                           : "unit of {} not given; {} assumed"),
+                    arm::shown(frequencies->path), frequencies->unit));
   }
   use_paths_of_namesakes(file.table);
 }

@@ -37,8 +37,8 @@ struct MatPages {
 /// A column of strings, in MATLAB a cell array.
 using MatStrings = std::vector<std::string>;
 
-/// A variable of a .mat file: a matrix (a scalar is 1 x 1) or several, a text in ASCII, or a list
-/// of texts. Pages are written alone: they are read as vectors.
+/// A variable of a .mat file: a matrix (a scalar is 1 x 1) or several, a text in UTF-8 (ASCII,
+/// where it is written), or a list of texts. Pages are written alone: they are read as vectors.
 struct MatVariable {
   std::string name;
   std::variant<MatMatrix, MatComplexMatrix, MatPages, std::string, MatStrings> value;

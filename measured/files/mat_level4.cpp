@@ -1,5 +1,6 @@
 #include "arm/input_error.hpp"
 #include "measured/files/mat_levels.hpp"
+#include "measured/files/text_encoding.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 namespace flexarm::measured {
 
@@ -106,16 +108,12 @@ void add_level4(const std::string& name, const Level4Header& header, MatNumbers 
     add_numbers(name, std::move(numbers), contents);
     return;
   }
-  std::string text;
-  for (const double code : numbers.real) {
-    if (header.rows != 1 || !(code >= ' ' && code <= '~')) {
-      contents.left_out.push_back(
-          fmt::format("{}: a text of several rows or letters beyond ASCII", name));
-      return;
-    }
-    text += static_cast<char>(code);
+  auto text = text_of_units(numbers.real);
+  if (!text || (!numbers.real.empty() && header.rows != 1)) {
+    contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
+    return;
   }
-  contents.variables.push_back({name, std::move(text)});
+  contents.variables.push_back({name, std::move(*text)});
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "arm/input_error.hpp"
+#include "arm/utf8.hpp"
 #include "measured/files/mat_elements.hpp"
 #include "measured/files/mat_levels.hpp"
 #include "measured/files/memory_file.hpp"
+#include "measured/files/text_encoding.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace flexarm::measured {
 
@@ -29,20 +32,30 @@ std::size_t elements(const matvar_t& variable) {
   return product;
 }
 
-/// A text of one row.
+/// A text of one row: UTF-8, whose letters have a byte or more, UTF-16 or Latin-1. Some programs
+/// call Latin-1 UTF-8.
 bool read_text(const matvar_t& variable, std::string& text) {
   if (variable.class_type != MAT_C_CHAR || variable.rank != 2) return false;
   const std::size_t size = elements(variable);
-  if (size > 0 && (variable.dims[0] != 1 || variable.data == nullptr)) return false;
   text.clear();
+  if (size == 0) return true;
+  if (variable.dims[0] != 1 || variable.data == nullptr) return false;
+  const auto* bytes = static_cast<const char*>(variable.data);
+  if (variable.data_type == MAT_T_UTF8) text.assign(bytes, variable.nbytes);
+  const auto is_printed = [](char c) {
+    return static_cast<unsigned char>(c) >= ' ' && c != '\x7f';
+  };
+  if (!text.empty() && arm::is_utf8(text)) return std::ranges::all_of(text, is_printed);
+  const auto unit_bytes = static_cast<std::size_t>(variable.data_size);
+  if (unit_bytes > 2 || variable.nbytes != size * unit_bytes) return false;
+  std::vector<double> units;
   for (std::size_t i = 0; i < size; ++i) {
-    const unsigned code = variable.data_size == 1
-                              ? static_cast<const std::uint8_t*>(variable.data)[i]
-                              : static_cast<const std::uint16_t*>(variable.data)[i];
-    if (variable.data_size > 2 || code < ' ' || code > '~') return false;
-    text += static_cast<char>(code);
+    units.push_back(unit_bytes == 1 ? static_cast<const std::uint8_t*>(variable.data)[i]
+                                    : static_cast<const std::uint16_t*>(variable.data)[i]);
   }
-  return true;
+  auto read = text_of_units(units);
+  if (read) text = std::move(*read);
+  return read.has_value();
 }
 
 bool read_texts(const matvar_t& variable, MatStrings& texts) {
@@ -157,6 +170,8 @@ void append(matvar_t& variable, const std::string& name, MatContents& contents) 
     append_cells(variable, name, contents);
   } else if (auto numbers = read_numbers(variable)) {
     add_numbers(name, std::move(*numbers), contents);
+  } else if (variable.class_type == MAT_C_CHAR) {
+    contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
   } else {
     contents.left_out.push_back(fmt::format("{}: neither numbers nor text", name));
   }

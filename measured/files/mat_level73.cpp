@@ -2,6 +2,7 @@
 #include "measured/files/mat_levels.hpp"
 #include "measured/files/mat_packing.hpp"
 #include "measured/files/own_process.hpp"
+#include "measured/files/text_encoding.hpp"
 
 #include <fmt/format.h>
 
@@ -269,15 +270,12 @@ class Hdf5Reader {
   }
 
   void add_text(const std::string& name, const MatNumbers& codes) {
-    std::string text;
-    for (const double code : codes.real) {
-      if (codes.dimensions[0] != 1 || !(code >= ' ' && code <= '~')) {
-        leave_out(name, "a text of several rows or letters beyond ASCII");
-        return;
-      }
-      text += static_cast<char>(code);
+    auto text = text_of_units(codes.real);
+    if (!text || (!codes.real.empty() && codes.dimensions[0] != 1)) {
+      leave_out(name, kUnreadText);
+      return;
     }
-    contents_.variables.push_back({name, std::move(text)});
+    contents_.variables.push_back({name, std::move(*text)});
   }
 
   /// A compound of the real and the imaginary part.

@@ -9,6 +9,9 @@
 
 namespace flexarm::measured {
 
+/// Stands behind the name of a text that is not read.
+inline constexpr std::string_view kUnreadText = "a text of several rows or with control characters";
+
 /// Numbers of any dimensions, two or more, the first index running fastest.
 struct MatNumbers {
   std::vector<std::size_t> dimensions;

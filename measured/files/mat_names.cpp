@@ -1,8 +1,10 @@
 #include "measured/files/mat_names.hpp"
 
+#include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/mat_levels.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,11 @@ using std::string_view;
 
 constexpr std::array<string_view, 4> kLabelFields = {"label", "name", "signalname", "title"};
 constexpr std::array<string_view, 2> kUnitFields = {"unit", "units"};
+constexpr std::array<string_view, 2> kFrequencyUnitFields = {"frequencyunit", "frequencyunits"};
+/// Fields of Simulink's and MATLAB's structures that are numbers and no signals.
+constexpr std::array<string_view, 3> kDescriptions = {"dimensions", "valuedimensions", "plotstyle"};
+constexpr std::array<string_view, 5> kHertzNames = {"f", "freq", "freqs", "frequency", "hz"};
+constexpr std::array<string_view, 5> kRadianNames = {"w", "wout", "omega", "freq_rad", "w_rad"};
 constexpr std::array<string_view, 4> kTimeFields = {"time", "t", "tout", "timestamps"};
 /// Segments of the path of a block that say nothing of the signal.
 constexpr std::array<string_view, 5> kPorts = {"out", "in", "value", "output", "signal"};
@@ -110,20 +117,51 @@ std::string mat_field(string_view path) {
   return lower(field.substr(0, field.find_first_of("({")));
 }
 
-MatNames::MatNames(const std::vector<MatVariable>& variables) {
+std::optional<std::string> unit_of_frequency_name(string_view path) {
+  const std::string field = mat_field(path);
+  const ColumnName name = split_column_name(field);
+  if (std::ranges::count(kRadianNames, field) > 0) return "rad/s";
+  if (std::ranges::count(kHertzNames, name.base) == 0) return std::nullopt;
+  return field == "hz" ? "Hz" : name.unit;
+}
+
+bool is_description(string_view path) {
+  return !owner_of(path).empty() && std::ranges::count(kDescriptions, mat_field(path)) > 0;
+}
+
+MatNames::MatNames(const std::vector<MatVariable>& variables,
+                   const std::vector<std::string>& left_out) {
+  for (const string_view phrase : left_out) {
+    const auto end = phrase.find(": ");
+    const string_view path = phrase.substr(0, end);
+    const bool is_unit =
+        !owner_of(path).empty() && (std::ranges::count(kUnitFields, mat_field(path)) > 0 ||
+                                    std::ranges::count(kFrequencyUnitFields, mat_field(path)) > 0);
+    if (!is_unit || !phrase.ends_with(kUnreadText)) continue;
+    throw arm::InputError(fmt::format("{}; the unit of a signal must be a text of one row, as deg",
+                                      arm::shown(std::string(phrase))));
+  }
   for (const auto& variable : variables) {
     const string_view path = variable.name;
     const std::string owner(owner_of(path));
-    if (const auto* text = std::get_if<std::string>(&variable.value)) {
+    const auto* list = std::get_if<MatStrings>(&variable.value);
+    const auto* text = list != nullptr && list->size() == 1
+                           ? &list->front()
+                           : std::get_if<std::string>(&variable.value);
+    if (list != nullptr) lists_[owner].push_back(list);
+    if (text != nullptr) {
       texts_[owner.empty() ? std::string(path) : owner + "." + mat_field(path)] = *text;
       if (split_cell(path)) texts_[std::string(path)] = *text;
-    } else if (const auto* list = std::get_if<MatStrings>(&variable.value)) {
-      lists_[owner].push_back(list);
-    } else {
+    } else if (list == nullptr) {
       const auto* matrix = std::get_if<MatMatrix>(&variable.value);
       if (matrix != nullptr && matrix->values.size() < 2) continue;
+      if (is_description(path)) continue;
+      if (unit_of_frequency_name(path)) frequencies_in_.insert(owner);
       if (const auto cell = split_cell(path)) ++cells_in_[std::string(cell->first)];
-      if (is_time_field(path)) continue;
+      if (is_time_field(path)) {
+        times_in_.insert(owner);
+        continue;
+      }
       for (string_view at = owner_of(path); !at.empty(); at = owner_of(at)) {
         ++signals_in_[std::string(at)];
       }
@@ -143,8 +181,34 @@ std::string MatNames::told_label(string_view path) const {
   return "";
 }
 
+/// "rad/TimeUnit" is MATLAB's word for rad per `TimeUnit`, seconds if that is not told.
+std::string MatNames::told_frequency_unit(string_view path) const {
+  const string_view owner = owner_of(path);
+  const auto beside = [&](string_view field) {
+    // Variables that no structure holds keep their case.
+    const auto found = std::ranges::find_if(texts_, [&](const auto& entry) {
+      return owner_of(entry.first) == owner && mat_field(entry.first) == field;
+    });
+    return found == texts_.end() ? std::string() : found->second;
+  };
+  for (const string_view field : kFrequencyUnitFields) {
+    std::string unit = beside(field);
+    const std::string time = beside("timeunit");
+    constexpr string_view kPerTime = "/TimeUnit";
+    if (unit.ends_with(kPerTime)) {
+      unit.replace(unit.size() - kPerTime.size() + 1, kPerTime.size(),
+                   time.empty() ? "seconds" : time);
+    }
+    if (!unit.empty()) return canonical_unit(unit);
+  }
+  return "";
+}
+
 std::string MatNames::told_unit(string_view path) const {
   const string_view owner = owner_of(path);
+  // Beside times, "w" is no frequency.
+  const auto of_frequency = times_in_.contains(owner) ? std::nullopt : unit_of_frequency_name(path);
+  if (std::string unit = told_frequency_unit(path); of_frequency && !unit.empty()) return unit;
   const char* info = is_time_field(path) ? "TimeInfo" : "DataInfo";
   for (const string_view field : kUnitFields) {
     for (const auto& place :
@@ -153,7 +217,14 @@ std::string MatNames::told_unit(string_view path) const {
       // The unit beside a signal is not that of its time.
       const bool is_of_time = place.find(info) != std::string::npos;
       if (text == texts_.end() || (is_time_field(path) && !is_of_time)) continue;
-      return canonical_unit(text->second);
+      std::string unit = canonical_unit(text->second);
+      const bool is_in_hertz = unit == "Hz" || unit == "kHz";
+      const bool is_as_named = of_frequency == "rad/s" && unit == "rad/s";
+      if (of_frequency ? !is_in_hertz && !is_as_named
+                       : is_in_hertz && frequencies_in_.contains(owner)) {
+        continue;
+      }
+      return unit;
     }
   }
   return "";

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,14 +22,20 @@ struct MatSignalName {
 /// Names that structures tell of the signals in them, as Simulink and dSPACE write them: a text
 /// `label`, `Name`, `SignalName` or `title` beside the values or around them, with a `Unit`; a list
 /// of as many texts as a matrix has signals, or a cell array cells; a cell of text above one of
-/// values. `X.Data` beside `Y.Data` is a time.
+/// values. `X.Data` beside `Y.Data` is a time. A `FrequencyUnit` is that of the frequencies beside
+/// it, as is a `Unit` of Hz or kHz.
 class MatNames {
  public:
-  explicit MatNames(const std::vector<MatVariable>& variables);
+  /// Throws InputError for a unit of a signal that is there and is no text of one row.
+  explicit MatNames(const std::vector<MatVariable>& variables,
+                    const std::vector<std::string>& left_out);
 
   /// The signals of the variable `path`, `count` columns or rows that stand at `path` + suffix.
   std::vector<MatSignalName> of(const std::string& path,
                                 const std::vector<std::string>& suffixes) const;
+
+  /// The `FrequencyUnit` beside a vector, canonical; empty: not told.
+  std::string told_frequency_unit(std::string_view path) const;
 
  private:
   std::string told_label(std::string_view path) const;
@@ -40,10 +48,19 @@ class MatNames {
   std::map<std::string, std::vector<const MatStrings*>, std::less<>> lists_;  ///< by owner
   std::map<std::string, std::size_t, std::less<>> signals_in_;  ///< by owner, without times
   std::map<std::string, std::size_t, std::less<>> cells_in_;    ///< cells of values, by cell array
+  std::set<std::string, std::less<>> times_in_;                 ///< owners of times
+  std::set<std::string, std::less<>> frequencies_in_;           ///< owners of vectors called so
 };
 
 /// The field behind the last point of a path, in lower case and without an index.
 std::string mat_field(std::string_view path);
+
+/// The unit of a vector of frequencies, by the name of its field: "rad/s" of `w`, "kHz" of `f_kHz`,
+/// empty for `f`, which tells none; nothing for a field that is not called so.
+std::optional<std::string> unit_of_frequency_name(std::string_view path);
+
+/// Whether a field says how the signal beside it is stored or drawn, `dimensions`, `plotStyle`.
+bool is_description(std::string_view path);
 
 /// Numbers x(1).f, x(2).f, ... of ten structures or more as one vector x.f; all else as it is.
 std::vector<MatVariable> gathered_records(std::vector<MatVariable> variables);

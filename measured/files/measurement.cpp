@@ -280,6 +280,12 @@ class MeasurementReader : measured::TomlFaults {
         throw InputError(fmt::format(
             "scale = {:.6g}: the factor of unit {}, which is applied already; leave scale out",
             mapping.scale, mapping.unit));
+      } else if (const double of_unit = scale_of_unit(name, mapping.unit);
+                 of_unit != 1.0 && !repeats_conversion(name, mapping.unit, mapping.scale)) {
+        throw InputError(
+            fmt::format("scale = {0:.6g}: in {1}, or from {1} to {2}; write unit = \"{2}\", with "
+                        "scale = {3:.9g} if it is in {1}, {0:.9g} if not",
+                        mapping.scale, mapping.unit, si_unit_of(name), mapping.scale * of_unit));
       }
     } catch (const InputError& error) {
       fault(line_of(node), fmt::format("{}.{}", key, error.what()));

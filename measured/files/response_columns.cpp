@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/response_unit.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -27,8 +28,10 @@ using std::string_view;
 constexpr std::array<string_view, 6> kPartNames = {"frequency", "magnitude", "phase",
                                                    "real",      "imaginary", "coherence"};
 
-bool is_decibel(const std::string& unit) {
-  return unit.starts_with("dB");
+/// Whether it is dB, perhaps with what it refers to; dBm and dB10 are other measures.
+bool is_decibel(string_view unit) {
+  if (!unit.starts_with("dB")) return false;
+  return unit.size() == 2 || string_view(" (/[:,").find(unit[2]) != string_view::npos;
 }
 
 /// The columns of one response.
@@ -70,7 +73,8 @@ std::vector<Parts> gathered(const std::vector<PartColumn>& parts, std::vector<st
       found = all.end() - 1;
     }
     auto& place = found->of_kind[static_cast<std::size_t>(part.part)];
-    const bool is_better = !place || (is_decibel(part.unit) && !is_decibel(place->unit));
+    const bool is_better = !place || (!place->fault.empty() && part.fault.empty()) ||
+                           (is_decibel(part.unit) && !is_decibel(place->unit));
     if (place) {
       notes.push_back(
           fmt::format("{} of columns: {} is taken, {} is not", to_string(part.part),
@@ -109,7 +113,17 @@ void join_coherences(std::vector<Parts>& all) {
 class ResponseMaker {
  public:
   ResponseMaker(const ForeignTable& table, const PartColumn& frequency)
-      : table_(table), frequency_(frequency) {}
+      : table_(table), frequency_(frequency) {
+    hertz_ = hertz_in_one(frequency.unit.empty() ? "Hz" : frequency.unit);
+    if (hertz_ == 0.0) {
+      throw InputError(fmt::format("frequency {} in {}: must be in Hz, kHz, rad/s or rpm",
+                                   shown(frequency), arm::shown(frequency.unit)));
+    }
+    if (frequency.unit.empty() || frequency.is_unit_assumed) {
+      note(fmt::format("unit of {} not given; {} assumed", shown(frequency),
+                       frequency.unit.empty() ? "Hz" : frequency.unit));
+    }
+  }
 
   ForeignResponse make(const Parts& parts) {
     const auto& first =
@@ -119,7 +133,10 @@ class ResponseMaker {
     const auto& coherence = parts[ResponsePart::coherence];
     ForeignResponse made;
     made.name = parts.name.empty() ? table_.columns[first->column].name : parts.name;
-    const ResponseUnit unit = unit_of_response(first->unit);
+    require_part(*first);
+    require_part(*second);
+    const bool is_in_second = !parts.is_polar() && first->unit.empty();
+    const ResponseUnit unit = unit_of_response(is_in_second ? second->unit : first->unit);
     made.unit = unit.unit;
     made.per = unit.per;
     for (const auto* part : {&first, &second, &coherence}) {
@@ -127,17 +144,20 @@ class ResponseMaker {
     }
     const bool is_polar = parts.is_polar();
     const bool is_in_decibel = is_polar && decibel(*first);
+    if (!is_polar) require_alike(*first, *second);
+    require_unit_of_response(*first);
     const double radian = is_polar ? radians_in(*second) : 1.0;
     std::vector<std::size_t> lines = lines_of(made.columns);
     for (const std::size_t line : lines) {
       const double a = value(*first, line);
       const double b = value(*second, line);
       constexpr double kDecibels = 20.0;
-      made.frequency_Hz.push_back(value(frequency_, line) * hertz());
+      made.frequency_Hz.push_back(value(frequency_, line) * hertz_);
       made.response.push_back(is_polar ? std::polar(1.0, b * radian) *
                                              (is_in_decibel ? std::pow(10.0, a / kDecibels) : a)
                                        : std::complex<double>(a, b));
-      const double coherent = coherence ? value(*coherence, line) : kUnknown;
+      const double coherent =
+          coherence ? value(*coherence, line) * (coherence->unit == "%" ? 0.01 : 1.0) : kUnknown;
       made.coherence.push_back(coherent > 0.0 && coherent <= 1.0 ? coherent : kUnknown);
     }
     return made;
@@ -154,24 +174,49 @@ class ResponseMaker {
     if (std::ranges::count(notes_, sentence) == 0) notes_.push_back(std::move(sentence));
   }
 
-  double hertz() const {
-    constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-    if (frequency_.unit == "rad/s") return 1.0 / kTurn_rad;
-    if (frequency_.unit == "rpm") return 1.0 / 60.0;
-    return frequency_.unit == "kHz" ? 1e3 : 1.0;
-  }
+  /// Holds what an absolute magnitude may be called in place of a unit.
+  static constexpr std::array<string_view, 4> kAbsolute = {"abs", "absolute", "lin", "linear"};
 
   /// "dB re 1 rad/(N m)" and "1" tell what stands behind dB, and nothing.
   static ResponseUnit unit_of_response(const std::string& unit) {
     string_view rest = unit;
     if (is_decibel(unit)) rest.remove_prefix(2);
-    for (const string_view word : {" ", "(", "re", "rel.", "ref", " ", ":", "1 ", " "}) {
+    for (const string_view word :
+         {"/", " ", "(", "rel.", "ref", "re ", "re:", " ", ":", "1 ", " "}) {
       if (is_decibel(unit) && rest.starts_with(word)) rest.remove_prefix(word.size());
     }
     if (is_decibel(unit) && std::ranges::count(rest, ')') > std::ranges::count(rest, '(')) {
       rest.remove_suffix(1);
     }
-    return rest == "1" ? ResponseUnit{} : split_response_unit(rest);
+    const bool is_none = rest == "1" || std::ranges::count(kAbsolute, rest) > 0;
+    return is_none ? ResponseUnit{} : split_response_unit(rest);
+  }
+
+  void require_part(const PartColumn& part) const {
+    if (part.fault.empty()) return;
+    throw InputError(fmt::format("{} {}: {}", to_string(part.part), shown(part), part.fault));
+  }
+
+  /// Parts of which one tells no unit have that of the other.
+  void require_alike(const PartColumn& real, const PartColumn& imaginary) const {
+    require_unit_of_response(imaginary);
+    if (real.unit.empty() || imaginary.unit.empty() || real.unit == imaginary.unit) return;
+    throw InputError(fmt::format("real part {} in {}, imaginary part {} in {}: must be in one unit",
+                                 shown(real), arm::shown(real.unit), shown(imaginary),
+                                 arm::shown(imaginary.unit)));
+  }
+
+  /// A magnitude, a real or an imaginary part is in the unit of a sensor, perhaps per torque.
+  void require_unit_of_response(const PartColumn& part) const {
+    const ResponseUnit unit = unit_of_response(part.unit);
+    if (unit.unit.empty() || is_canonical_unit(unit.unit)) return;
+    throw InputError(fmt::format(
+        "{0} {1} in {2}: {3}; state it with --column 'SENSOR.{0}=NAME:UNIT', beside frequency and "
+        "the other part",
+        to_string(part.part), shown(part), arm::shown(part.unit),
+        is_stiffness_unit(unit.unit)
+            ? "a stiffness, not a response to a torque"
+            : "must be absolute, or in the unit of a sensor per torque, as rad/(N m), or in dB"));
   }
 
   bool decibel(const PartColumn& part) {
@@ -241,6 +286,7 @@ class ResponseMaker {
 
   const ForeignTable& table_;
   const PartColumn& frequency_;
+  double hertz_ = 1.0;  ///< in one of the frequencies' unit
   std::vector<std::string> notes_;
 };
 

@@ -22,6 +22,8 @@ struct PartColumn {
   std::string response;  ///< its name; empty for the frequencies, and in a file of one response
   std::size_t column = 0;
   std::string unit;  ///< dB, rad, deg, Hz, rad/s, or that of the response; empty: not told
+  bool is_unit_assumed = false;  ///< of frequencies whose name and unit tell none
+  std::string fault = {};        ///< why the numbers are not those of the part; empty: they are
 };
 
 /// Frequency responses in columns, and what was assumed to get them, a sentence each.

@@ -26,13 +26,15 @@ constexpr string_view kImaginaryWords[] = {"im",         "imag",    "imaginary",
                                            "imaginaire", "imagpart"};
 constexpr string_view kCoherenceWords[] = {"coh", "coherence", "kohaerenz", "gamma"};
 /// Words beside those of a part that tell nothing more.
-constexpr string_view kFillers[] = {"part",   "of",   "log",    "lin",
-                                    "linear", "teil", "partie", "squared"};
+constexpr string_view kFillers[] = {"part", "of", "log", "lin", "linear", "teil", "partie"};
+constexpr string_view kSquareWords[] = {"squared", "quadrat", "sq"};
+constexpr string_view kLagWords[] = {"lag", "lags", "lagging"};
 constexpr string_view kFrequencyWords[] = {"f",           "freq",     "freqs",     "frequency",
                                            "frequencies", "frequenz", "frequence", "hz",
                                            "hertz",       "xvalue"};
-constexpr string_view kRadianWords[] = {"w", "omega", "angularfrequency", "kreisfrequenz",
-                                        "pulsation"};
+constexpr string_view kHertzWords[] = {"hz", "hertz"};
+constexpr string_view kRadianWords[] = {
+    "w", "wout", "omega", "angularfrequency", "kreisfrequenz", "pulsation"};
 
 constexpr std::array<std::pair<ResponsePart, std::span<const string_view>>, 5> kParts = {{
     {ResponsePart::magnitude, kMagnitudeWords},
@@ -53,7 +55,7 @@ std::optional<ResponsePart> part_of_word(string_view word) {
   return std::nullopt;
 }
 
-/// A word of a name: `mag` and `H1` of `magH1`, `H1mag`, `H1_mag`.
+/// A word of a name: `mag` and `H1` of `magH1`, `H1mag`, `H1_mag`; `mag` and `dB` of `magdB`.
 struct NameWord {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -68,9 +70,19 @@ std::vector<NameWord> name_words(string_view name) {
     if (c >= '0' && c <= '9') return Kind::digit;
     return static_cast<unsigned char>(c) >= 0x80U ? Kind::lower : Kind::other;
   };
+  const auto is_decibel_at = [&](std::size_t i) {
+    return name.substr(i).starts_with("dB") &&
+           (i + 2 == name.size() || kind_of(name[i + 2]) != Kind::lower);
+  };
   std::vector<NameWord> words;
   Kind before = Kind::other;
   for (std::size_t i = 0; i < name.size(); ++i) {
+    if (is_decibel_at(i)) {
+      words.push_back({i, i + 2, ""});
+      before = Kind::upper;
+      ++i;
+      continue;
+    }
     const Kind kind = kind_of(name[i]);
     const bool begins = before == Kind::other || (before == Kind::lower && kind == Kind::upper) ||
                         (before == Kind::digit && kind != Kind::digit);
@@ -122,17 +134,56 @@ string_view field_of(const ForeignTable& table, string_view name) {
   return is_field ? name.substr(point + 1) : name;
 }
 
-bool is_frequency(string_view name, const std::string& unit, std::string& told) {
-  const std::string letters = plain_letters(split_column_name(name).base);
-  if (is_among(kRadianWords, letters) && (unit.empty() || unit == "rad/s")) {
-    told = "rad/s";
-    return true;
+/// The frequencies in a column that is called so and whose unit is one of frequencies or not told.
+std::optional<PartColumn> frequencies_of(const ForeignTable& table, std::size_t place) {
+  const ForeignColumn& column = table.columns[place];
+  if (column.is_text()) return std::nullopt;
+  const std::string letters = plain_letters(split_column_name(field_of(table, column.name)).base);
+  PartColumn part{ResponsePart::frequency, "", place, column.unit};
+  if (is_among(kRadianWords, letters) && (part.unit.empty() || part.unit == "rad/s")) {
+    part.is_unit_assumed = part.unit.empty();
+    part.unit = "rad/s";
+    return part;
   }
-  const bool is_named = is_among(kFrequencyWords, letters);
-  const bool fits = unit == "Hz" || unit == "kHz" || unit == "rad/s" || unit == "rpm" ||
-                    (unit.empty() && letters != "xvalue");
-  told = unit.empty() ? "Hz" : unit;
-  return is_named && fits;
+  if (!is_among(kFrequencyWords, letters)) return std::nullopt;
+  if (part.unit.empty() && letters == "xvalue") return std::nullopt;
+  if (part.unit.empty()) {
+    part.is_unit_assumed = !is_among(kHertzWords, letters);
+    part.unit = "Hz";
+  }
+  if (hertz_in_one(part.unit) == 0.0) return std::nullopt;
+  return part;
+}
+
+/// Whether brackets name a response, H1 of Re(H1) and Im(H1): those of another column have the text
+/// too, and it is no quotient of units.
+bool names_response(const ForeignTable& table, const std::string& text) {
+  if (is_stiffness_unit(text)) return false;
+  const auto has_in_brackets = [&](const ForeignColumn& column) {
+    const auto at = column.name.find(text);
+    const auto end = at + text.size();
+    return at != std::string::npos && at > 0 && end < column.name.size() &&
+           string_view("([{|<").find(column.name[at - 1]) != string_view::npos &&
+           string_view(")]}|>").find(column.name[end]) != string_view::npos;
+  };
+  return std::ranges::count_if(table.columns, has_in_brackets) > 1;
+}
+
+/// Why the numbers are not those of the part that the words name; empty: they are.
+std::string fault_of(ResponsePart part, string_view name, const std::vector<NameWord>& words) {
+  const auto has = [&](std::span<const string_view> faulty) {
+    return std::ranges::any_of(
+        words, [&](const NameWord& word) { return is_among(faulty, word.letters); });
+  };
+  const bool is_square = has(kSquareWords) || name.find("^2") != string_view::npos ||
+                         name.find("\xc2\xb2") != string_view::npos;
+  if (part == ResponsePart::magnitude && is_square) {
+    return "a square; the magnitude itself must be there, absolute or in dB";
+  }
+  if (part == ResponsePart::phase && has(kLagWords)) {
+    return "a lag, whose sign is the other one; negate it, and call it phase";
+  }
+  return "";
 }
 
 std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t place) {
@@ -141,8 +192,8 @@ std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t 
   const string_view field = field_of(table, column.name);
   ColumnName name = split_column_name(field);
   std::string unit = column.unit;
-  if (!is_part_unit(unit)) {
-    name.base = std::string(field);  // "Re(H1)" has no unit
+  if (!is_part_unit(unit) && unit == name.unit && names_response(table, unit)) {
+    name.base = std::string(field);
     unit.clear();
   }
   if (name.base.size() > 2 && name.base.starts_with('|') && name.base.ends_with('|')) {
@@ -152,12 +203,19 @@ std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t 
   const auto words = name_words(name.base);
   std::vector<NameWord> taken;
   std::optional<ResponsePart> part;
+  bool is_in_decibel = false;
   for (const auto& word : words) {
     const auto found = part_of_word(word.letters);
-    if (found && !part) {
+    // "Gain: Phase" is a phase.
+    const bool is_phase_of_gain = part == ResponsePart::magnitude && found == ResponsePart::phase;
+    if (found && (!part || is_phase_of_gain)) {
       part = found;
       taken.push_back(word);
-    } else if (is_among(kFillers, word.letters)) {
+    } else if (word.letters == "db") {
+      is_in_decibel = true;
+      taken.push_back(word);
+    } else if (is_among(kFillers, word.letters) || is_among(kSquareWords, word.letters) ||
+               is_among(kLagWords, word.letters)) {
       taken.push_back(word);
     }
   }
@@ -167,8 +225,13 @@ std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t 
     part = ResponsePart::phase;
     taken = {words.front()};
   }
+  if (!part && is_in_decibel) part = ResponsePart::magnitude;
   if (!part) return std::nullopt;
-  return PartColumn{*part, without(name.base, taken), place, unit};
+  if (*part == ResponsePart::magnitude && is_in_decibel && !unit.starts_with("dB")) {
+    unit = "dB " + unit;
+  }
+  return PartColumn{*part, without(name.base, taken),        place, unit,
+                    false, fault_of(*part, name.base, words)};
 }
 
 }  // namespace
@@ -176,11 +239,7 @@ std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t 
 std::vector<PartColumn> response_parts(const ForeignTable& table) {
   std::vector<PartColumn> parts;
   for (std::size_t i = 0; i < table.columns.size() && parts.empty(); ++i) {
-    const ForeignColumn& column = table.columns[i];
-    std::string unit;
-    if (column.is_text() || !is_frequency(field_of(table, column.name), column.unit, unit))
-      continue;
-    parts.push_back({ResponsePart::frequency, "", i, unit});
+    if (auto frequencies = frequencies_of(table, i)) parts.push_back(std::move(*frequencies));
   }
   if (parts.empty()) return parts;
   const std::size_t lines = table.columns[parts.front().column].values.size();

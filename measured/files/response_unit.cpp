@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace flexarm::measured {
 
@@ -44,6 +45,25 @@ ResponseUnit split_response_unit(string_view text) {
     split_at(inside, at, kPer.size(), unit);
   }
   return unit;
+}
+
+bool is_stiffness_unit(string_view text) {
+  const std::string whole = canonical_unit(text);
+  if (is_canonical_unit(whole) || !split_response_unit(whole).per.empty()) return false;
+  for (auto at = whole.find('/'); at != std::string::npos; at = whole.find('/', at + 1)) {
+    if (is_input_unit(canonical_unit(string_view(whole).substr(0, at))) &&
+        is_canonical_unit(canonical_unit(string_view(whole).substr(at + 1)))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double hertz_in_one(string_view unit) {
+  if (unit == "Hz") return 1.0;
+  if (unit == "kHz") return 1e3;
+  if (unit == "rpm") return 1.0 / 60.0;
+  return unit == "rad/s" ? 1.0 / (2.0 * std::numbers::pi) : 0.0;
 }
 
 }  // namespace flexarm::measured

@@ -15,4 +15,10 @@ struct ResponseUnit {
 /// of what was measured.
 ResponseUnit split_response_unit(std::string_view text);
 
+/// Whether it is a response's unit upside down: "N m/rad", "N/m".
+bool is_stiffness_unit(std::string_view text);
+
+/// Hz in one of a canonical unit of frequencies, Hz, kHz, rad/s or rpm; 0 for any other.
+double hertz_in_one(std::string_view unit);
+
 }  // namespace flexarm::measured

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -37,6 +38,19 @@ void append_utf8(std::string& out, std::uint32_t code) {
   }
 }
 
+struct Letter {
+  std::uint32_t code = 0;
+  std::size_t units = 1;
+};
+
+/// The letter of a UTF-16 code unit and the one behind it, 0 where there is none; empty for half a
+/// pair.
+std::optional<Letter> letter_of(std::uint32_t unit, std::uint32_t next) {
+  if (unit < 0xd800U || unit >= 0xe000U) return Letter{unit};
+  if (unit >= 0xdc00U || next < 0xdc00U || next >= 0xe000U) return std::nullopt;
+  return Letter{0x10000U + ((unit - 0xd800U) << 10U) + (next - 0xdc00U), 2};
+}
+
 std::string from_utf16(string_view bytes, bool big_endian) {
   if (bytes.size() % 2 != 0) throw InputError("not text: UTF-16 with an odd number of bytes");
   const auto unit = [&](std::size_t at) {
@@ -45,17 +59,11 @@ std::string from_utf16(string_view bytes, bool big_endian) {
     return big_endian ? first << 8U | second : second << 8U | first;
   };
   std::string out;
-  for (std::size_t at = 0; at < bytes.size(); at += 2) {
-    std::uint32_t code = unit(at);
-    if (code >= 0xd800U && code < 0xe000U) {
-      const std::uint32_t low = at + 3 < bytes.size() ? unit(at + 2) : 0;
-      if (code >= 0xdc00U || low < 0xdc00U || low >= 0xe000U) {
-        throw InputError(fmt::format("not text: half a UTF-16 pair at byte {}", at));
-      }
-      code = 0x10000U + ((code - 0xd800U) << 10U) + (low - 0xdc00U);
-      at += 2;
-    }
-    append_utf8(out, code);
+  for (std::size_t at = 0; at < bytes.size();) {
+    const auto letter = letter_of(unit(at), at + 3 < bytes.size() ? unit(at + 2) : 0);
+    if (!letter) throw InputError(fmt::format("not text: half a UTF-16 pair at byte {}", at));
+    append_utf8(out, letter->code);
+    at += 2 * letter->units;
   }
   return out;
 }
@@ -95,6 +103,24 @@ DecodedText decode_text(string_view bytes) {
   }
   require_no_controls(text.utf8);
   return text;
+}
+
+std::optional<std::string> text_of_units(std::span<const double> units) {
+  constexpr double kUnits = 0x1p16;
+  const auto is_unit = [](double unit) {
+    return unit >= ' ' && unit != 0x7f && unit < kUnits && unit == std::floor(unit);
+  };
+  if (!std::ranges::all_of(units, is_unit)) return std::nullopt;
+  std::string out;
+  for (std::size_t at = 0; at < units.size();) {
+    const double next = at + 1 < units.size() ? units[at + 1] : 0.0;
+    const auto letter =
+        letter_of(static_cast<std::uint32_t>(units[at]), static_cast<std::uint32_t>(next));
+    if (!letter) return std::nullopt;
+    append_utf8(out, letter->code);
+    at += letter->units;
+  }
+  return out;
 }
 
 }  // namespace flexarm::measured

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,5 +17,9 @@ struct DecodedText {
 /// Throws InputError "not text: ..." for bytes that hold control characters, as no text does, and
 /// UTF-16 that is none; not located.
 DecodedText decode_text(std::string_view bytes);
+
+/// The text of UTF-16 code units as UTF-8; empty where one is a control character, half a pair or
+/// no unit at all.
+std::optional<std::string> text_of_units(std::span<const double> units);
 
 }  // namespace flexarm::measured

@@ -310,6 +310,15 @@ std::vector<string_view> lines_to_end(Cursor& cursor) {
   throw InputError("file incomplete: data set without its end line -1");
 }
 
+/// The code and the name of the units of data set 164; empty for SI, code 1.
+std::string units_in(const std::vector<string_view>& lines) {
+  if (lines.empty()) return "";
+  Fields fields(lines.front());
+  const int code = fields.whole(10, "units code");
+  constexpr int kSi = 1;
+  return code == kSi ? "" : fmt::format("{}, {}", code, fields.text(20));
+}
+
 }  // namespace
 
 UniversalFile parse_universal_file(string_view bytes, const std::string& file_name) {
@@ -338,7 +347,8 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
               fmt::format("{}: must be the number of a data set", arm::shown(trimmed_line(line))));
         }
         file.passed_over.emplace_back(number);
-        lines_to_end(cursor);
+        const auto lines = lines_to_end(cursor);
+        if (number == "164") file.units = units_in(lines);
       }
     }
     if (file.functions.empty() && file.modes.empty()) {

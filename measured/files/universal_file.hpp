@@ -69,6 +69,7 @@ struct UniversalFile {
   std::vector<UniversalFunction> functions;
   std::vector<UniversalMode> modes;
   std::vector<std::string> passed_over;
+  std::string units;  ///< of data set 164, as "5, mm (milli-newton)"; empty: SI, or none
 };
 
 /// How a universal file is written.

@@ -49,7 +49,7 @@ std::vector<T> fields_of(std::string_view line, std::size_t width) {
 ModalEntry pole_at(double frequency_Hz, double damping_ratio) {
   ModalEntry pole;
   pole.frequency_Hz = frequency_Hz;
-  if (damping_ratio != 0.0 && std::abs(damping_ratio) <= 1.0) pole.damping_ratio = damping_ratio;
+  if (damping_ratio != 0.0) pole.damping_ratio = damping_ratio;
   return pole;
 }
 
@@ -84,6 +84,11 @@ UniversalMode read_universal_mode(std::span<const std::string_view> lines) {
     throw InputError(fmt::format("{} at {} Hz: must be a finite number", mode, frequency_Hz));
   }
   if (frequency_Hz <= 0.0) return {std::nullopt, mode + " at 0 Hz, of the rigid body"};
+  if (std::abs(damping_ratio) > 1.0) {
+    throw InputError(fmt::format(
+        "{} at {} Hz: damping ratio {}: must be from -1 to 1, a fraction, not in per cent", mode,
+        frequency_Hz, damping_ratio));
+  }
   return {pole_at(frequency_Hz, damping_ratio), "shape of " + mode};
 }
 

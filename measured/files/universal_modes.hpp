@@ -19,7 +19,8 @@ struct UniversalMode {
 /// (analysis type 2: frequency in Hz, viscous damping ratio, half the hysteretic one where that is
 /// 0) and of complex modes (3 and 7: eigenvalue in rad/s). A damping of 0 is not known.
 ///
-/// Throws InputError for records that are missing and fields that are no numbers; not located.
+/// Throws InputError for records that are missing, fields that are no numbers, and a damping ratio
+/// above 1, as of per cent; not located.
 UniversalMode read_universal_mode(std::span<const std::string_view> lines);
 
 }  // namespace flexarm::measured

@@ -196,6 +196,14 @@ TEST_F(ImportKinds, FrequencyResponsesInColumnsAreRead) {
                               "hub_angle.magnitude=b:dB", "--column", "hub_angle.phase=c:deg"}));
   EXPECT_THAT(import({"plain.csv", "--kind", "frf"}).errors,
               HasSubstr("--kind frf: no columns of a frequency response are recognised"));
+  write("unclear.csv", "f,mag,phase\n1,1,-8\n2,1,-9\n");
+  EXPECT_THAT(import({"unclear.csv"}).errors, HasSubstr("unit not given, deg or rad; state it"));
+  const auto stated =
+      response({"unclear.csv", "--column", "frequency=f:Hz", "--column",
+                "hub_angle.magnitude=mag:rad", "--column", "hub_angle.phase=phase:deg"});
+  EXPECT_LT(std::abs(stated.channels.at(0).response.at(0) -
+                     std::polar(1.0, -8.0 * std::numbers::pi / 180.0)),
+            1e-15);
   write("half.csv", "Frequency (Hz),Magnitude (dB)\n1,2\n2,3\n");
   EXPECT_THAT(import({"half.csv"}).errors,
               HasSubstr("no frequency response: response without a name: magnitude without phase"));
@@ -261,6 +269,10 @@ TEST_F(ImportKinds, ModesOfAUniversalFileAreAModalTable) {
   EXPECT_NEAR(*table[1].damping_ratio, 0.02, 1e-6);
   EXPECT_THAT(output_,
               AllOf(HasSubstr("mode 1 at 0 Hz, of the rigid body"), HasSubstr("shape of mode 2")));
+  write("modes.uff", mode(2, 2, {11.86, 1.0, 1.5, 0.0}));
+  EXPECT_THAT(import({"modes.uff"}).errors,
+              HasSubstr("mode 2 at 11.86 Hz: damping ratio 1.5: must be from -1 to 1, a fraction, "
+                        "not in per cent"));
 }
 
 TEST_F(ImportKinds, ClockTimesPastMidnightAreEven) {

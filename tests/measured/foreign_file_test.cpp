@@ -156,6 +156,67 @@ TEST_F(ForeignFileTest, ResponsesOfAnAnalyserAreMappedIntoSi) {
   }
 }
 
+TEST_F(ForeignFileTest, FrequenciesOfAUniversalFileHaveTheirUnit) {
+  const auto read_with = [&](const char* unit) {
+    auto function = response_of("FRF", 3, "rad", "Nm");
+    function.abscissa_axis.units = unit;
+    write_universal_file({function}, path());
+    return read();
+  };
+  for (const auto& [unit, factor] :
+       {std::pair{"Hz", 1.0}, std::pair{"kHz", 1e3}, std::pair{"RPM", 1.0 / 60.0},
+        std::pair{"rad/s", 1.0 / (2.0 * std::numbers::pi)}}) {
+    const ForeignFile file = read_with(unit);
+    EXPECT_EQ(file.responses.at(0).frequency_Hz.at(1), 2.0 * factor) << unit;
+    EXPECT_TRUE(file.table.assumptions.empty()) << unit;
+  }
+  EXPECT_THAT(read_with("NONE").table.assumptions,
+              ElementsAre("unit of the frequencies of FRF not given; Hz assumed"));
+  try {
+    read_with("orders");
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("FRF: frequencies in orders; must be in Hz, kHz, rad/s"));
+  }
+}
+
+TEST_F(ForeignFileTest, AResponseOfRealNumbersIsRefused) {
+  auto function = response_of("FRF", 3, "rad", "Nm");
+  function.imaginary.clear();
+  write_universal_file({function}, path());
+  try {
+    read();
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("FRF: frequency response of real numbers, a magnitude"));
+  }
+}
+
+TEST_F(ForeignFileTest, ASignThatIsNotAppliedIsSaid) {
+  auto both = response_of("both", -3, "rad", "Nm");
+  both.reference = {"MOTOR", 1, -6};
+  write_universal_file(
+      {response_of("up", 3, "rad", "Nm"), response_of("down", -3, "rad", "Nm"), both}, path());
+  EXPECT_THAT(read().table.assumptions,
+              ElementsAre(HasSubstr("down: node 3 -z per node 0; the sign of a direction is not "
+                                    "applied")));
+}
+
+TEST_F(ForeignFileTest, UnitsOfDataSet164AreSaidWhereASignalHasNone) {
+  const auto read_with = [&](const std::string& units, const char* own) {
+    const std::string text = "    -1\n   164\n" + units + "\n    -1\n" +
+                             format_universal_file({response_of("tip", 3, own, "Nm")});
+    std::ofstream(path()) << text;
+    return read().table.assumptions;
+  };
+  const std::string millimetres = "         5mm (milli-newton)           2";
+  EXPECT_THAT(read_with(millimetres, "NONE"),
+              ElementsAre(HasSubstr("data set 164 has units, 5, mm (milli-newton), which are not "
+                                    "applied; units not given: tip")));
+  EXPECT_TRUE(read_with(millimetres, "mm").empty());
+  EXPECT_TRUE(read_with("         1SI: Meter (newton)            2", "NONE").empty());
+}
+
 TEST_F(ForeignFileTest, SignalsOfAUniversalFileAreColumns) {
   std::vector<UniversalFunction> functions = universal_functions(random_time_record());
   functions[1].id[0] = "NONE";

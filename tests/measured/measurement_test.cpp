@@ -54,18 +54,20 @@ TEST(Measurement, AColumnMayBeComputed) {
                             {"hub_velocity", {"", "deg/s", 1.0, "ddt([Angle (deg)])"}}}));
 }
 
-/// A scale that is given is all that carries such a unit into SI.
+/// A scale beside such a unit repeats its factor; any other may be meant in the unit or in SI.
 TEST(Measurement, AUnitBeyondThoseOfARecordStandsForItsScale) {
   const auto scale_of = [](const std::string& keys) {
-    return parse_measurement(kMeasurementHead + kRun + "columns.torque = { name = \"T\", unit = " +
-                                 keys + " }\n",
-                             "m.toml")
+    return parse_measurement(
+               kMeasurementHead + kRun + "columns.torque = { name = \"T\", unit = " + keys + " }\n",
+               "m.toml")
         .runs[0]
         .columns.at("torque")
         .scale;
   };
   EXPECT_EQ(scale_of("\"N cm\""), 0.01);
-  EXPECT_EQ(scale_of("\"N cm\", scale = 0.5"), 0.5);
+  EXPECT_EQ(scale_of("\"N cm\", scale = 0.01"), 0.01);
+  EXPECT_EQ(scale_of("\"N cm\", scale = -0.01"), -0.01);
+  EXPECT_EQ(scale_of("\"N mm\", scale = 0.5"), 0.5);
   EXPECT_EQ(scale_of("\"N mm\""), 1.0);
 }
 
@@ -157,7 +159,8 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "hub_velocity, tip_acceleration, tip_displacement, tip_deflection, strain@X (X in metres from "
      "the hub); besides time and torque"},
     {"ColumnWithoutName", kMeasurementHead + kRun + "columns = { time = { unit = \"ms\" } }\n",
-     "7: run.columns.time.name: missing; must be a column of the file, or expression a formula of its "
+     "7: run.columns.time.name: missing; must be a column of the file, or expression a formula of "
+     "its "
      "columns"},
     {"ColumnIsAText", kMeasurementHead + kRun + "columns = { time = \"t\" }\n",
      "7: run.columns.time = \"t\": a string; must be a table, as in { name = \"Time (ms)\", unit = "
@@ -167,7 +170,8 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "\"N m\" } }"},
     {"ForeignUnitWithoutScale",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
-     "7: run.columns.torque.unit = V: not one of N m, N mm, N cm, kN m, kgf cm, lbf in, lbf ft, ozf "
+     "7: run.columns.torque.unit = V: not one of N m, N mm, N cm, kN m, kgf cm, lbf in, lbf ft, "
+     "ozf "
      "in; give scale in N m per V"},
     {"NameBesideExpression",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", expression = \"2*Vm\" } }\n",
@@ -183,13 +187,19 @@ const std::vector<Mistake> kMeasurementMistakes = {
          "columns = { time = { name = \"t\", unit = \"ms\", scale = 0.001 } }\n",
      "7: run.columns.time.scale = 0.001: the factor of unit ms, which is applied already; leave "
      "scale out"},
+    {"ScaleOfAUnitThatIsNoneOfARecord",
+     kMeasurementHead + kRun +
+         "columns = { torque = { name = \"T\", unit = \"N cm\", scale = 0.5 } }\n",
+     "7: run.columns.torque.scale = 0.5: in N cm, or from N cm to N m; write unit = \"N m\", with "
+     "scale = 0.005 if it is in N cm, 0.5 if not"},
     {"ScaleZero", kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
      "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
     {"ScaleIsAText",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = \"1\" } }\n",
      "7: run.columns.torque.scale = \"1\": a string; must be a finite number, not 0"},
     {"ColumnKeyMisspelt", kMeasurementHead + kRun + "columns = { torque = { nam = \"Vm\" } }\n",
-     "7: run.columns.torque.nam: unknown key (did you mean name?); allowed: name, expression, unit, "
+     "7: run.columns.torque.nam: unknown key (did you mean name?); allowed: name, expression, "
+     "unit, "
      "scale"},
     {"PlaceAlongTheBeamTwice",
      kMeasurementHead + kRun +

@@ -88,6 +88,84 @@ TEST(ResponseColumns, UsualHeadersArePartsOfAResponse) {
   }
 }
 
+TEST(ResponseColumns, DecibelInTheNameBesideAUnitOfTheResponseIsDecibel) {
+  struct Header {
+    const char* text;
+    const char* unit;
+  };
+  for (const Header& header :
+       {Header{"Frequency (Hz),Magnitude dB(rad/Nm),Phase (deg)", "rad"},
+        Header{"Frequency [Hz],Magnitude dB [rad/Nm],Phase [deg]", "rad"},
+        Header{"Frequency (Hz),MagdB (deg/Nm),Phase (deg)", "deg"},
+        Header{"Frequency (Hz),dB(rad/Nm),Phase (deg)", "rad"},
+        Header{"Frequency (Hz),|H| dB [rad/Nm],arg(H) [deg]", "rad"},
+        Header{"Frequency (Hz),Magnitude [dB/(rad/Nm)],Phase (deg)", "rad"},
+        Header{"Frequency (Hz),Gain (dB ref 1 mrad/Nm),Phase (deg)", "mrad"},
+        Header{"Frequency (Hz),Trace 1: Gain: Magnitude (dB),Trace 2: Gain: Phase (deg)", ""}}) {
+    const auto made = responses_in(parse_foreign_table(
+        table_text(header.text, [](double f, Complex h) { return polar(f, h, ",", true, true); }),
+        "bode.csv"));
+    ASSERT_EQ(made.responses.size(), 1U) << header.text << made.incomplete;
+    EXPECT_EQ(made.responses[0].unit, header.unit) << header.text;
+    expect_response(made.responses[0]);
+  }
+}
+
+TEST(ResponseColumns, WhatIsNotAMagnitudeOrAPhaseIsRefused) {
+  struct Header {
+    const char* text;
+    const char* fault;
+  };
+  for (const Header& header :
+       {Header{"f_Hz,Magnitude (rad/Nm),Phase (cycles)", "phase Phase (cycles) in cycles: must be"},
+        Header{"f_Hz,Magnitude (rad/Nm),Phase(pi rad)", "in pi rad: must be in deg or rad"},
+        Header{"f_Hz,Magnitude (Np),Phase (deg)", "magnitude Magnitude (Np) in Np: must be"},
+        Header{"f_Hz,Magnitude (dBm),Phase (deg)", "in dBm: must be"},
+        Header{"f_Hz,Magnitude (Nm/rad),Phase (deg)", "a stiffness, not a response to a torque"},
+        Header{"f_Hz,Real (Nm/rad),Imag (Nm/rad)", "a stiffness, not a response to a torque"},
+        Header{"f_Hz,Real (rad/Nm),Imag (deg/Nm)", "must be in one unit"},
+        Header{"f_Hz,Real (rad/Nm),Imag (deg/Nm)", "must be in one unit"},
+        Header{"f_Hz,Magnitude squared,Phase (deg)", "magnitude Magnitude squared: a square"},
+        Header{"f_Hz,Mag^2,Phase (deg)", "magnitude Mag^2: a square"},
+        Header{"f_Hz,Gain (dB),Phase lag (deg)", "phase Phase lag (deg): a lag"}}) {
+    const auto table = parse_foreign_table(std::string(header.text) + "\n1,2,3\n2,3,4\n", "a.csv");
+    try {
+      responses_in(table);
+      ADD_FAILURE() << header.text;
+    } catch (const arm::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(header.fault));
+    }
+  }
+}
+
+TEST(ResponseColumns, AnAbsoluteMagnitudeAndASquaredCoherenceAreRead) {
+  const auto made = responses_in(parse_foreign_table(
+      "f_Hz,Magnitude (abs),Phase (deg),Coherence squared\n1,2,0,0.5\n2,3,0,0.5\n", "a.csv"));
+  ASSERT_EQ(made.responses.size(), 1U);
+  EXPECT_EQ(made.responses[0].response[0], Complex(2.0, 0.0));
+  EXPECT_EQ(made.responses[0].unit, "");
+  EXPECT_THAT(made.responses[0].coherence, ElementsAre(0.5, 0.5));
+}
+
+TEST(ResponseColumns, ACoherenceInPerCentIsAFraction) {
+  const auto made = responses_in(
+      parse_foreign_table("f_Hz,Real,Imag (deg/Nm),Coherence (%)\n1,2,0,50\n2,3,0,100\n", "a.csv"));
+  ASSERT_EQ(made.responses.size(), 1U);
+  EXPECT_EQ(made.responses[0].unit, "deg");
+  EXPECT_THAT(made.responses[0].coherence, ElementsAre(0.5, 1.0));
+}
+
+TEST(ResponseColumns, AnAssumedUnitOfFrequenciesIsSaid) {
+  const auto notes_of = [](const std::string& name) {
+    return responses_in(parse_foreign_table(name + ",re,im\n1,2,3\n2,3,4\n", "a.csv")).notes;
+  };
+  EXPECT_THAT(notes_of("frequency"), Contains("unit of frequency not given; Hz assumed"));
+  EXPECT_THAT(notes_of("omega"), Contains("unit of omega not given; rad/s assumed"));
+  for (const auto* name : {"Hz", "f_Hz", "frequency (kHz)", "w [rad/s]"}) {
+    EXPECT_THAT(notes_of(name), testing::Each(testing::Not(HasSubstr("assumed")))) << name;
+  }
+}
+
 TEST(ResponseColumns, RealAndImaginaryPartsWithCoherenceAndAngularFrequency) {
   for (const auto* header : {"w [rad/s];Re(H);Im(H);Coherence", "omega;Real;Imag;Coh",
                              "Kreisfrequenz;Realteil;Imagin\xc3\xa4rteil;Koh\xc3\xa4renz"}) {
@@ -161,6 +239,10 @@ TEST(ResponseColumns, PartsMayBeStated) {
   EXPECT_THROW(responses_of(table, {{ResponsePart::frequency, "", 0, "Hz"},
                                     {ResponsePart::magnitude, "x", 1, "dB"}}),
                arm::InputError);
+  EXPECT_THROW(responses_of(table, {{ResponsePart::frequency, "", 0, "orders"},
+                                    {ResponsePart::magnitude, "x", 1, "dB"},
+                                    {ResponsePart::phase, "x", 2, "deg"}}),
+               arm::InputError);
 }
 
 TEST(ResponseUnit, UnitsAreTakenApart) {
@@ -185,6 +267,12 @@ TEST(ResponseUnit, UnitsAreTakenApart) {
   expect("rad", "rad", "");
   expect("", "", "");
   expect("furlong/N", "furlong/N", "");
+  for (const auto* stiffness : {"Nm/rad", "N m/deg", "N/m"}) {
+    EXPECT_TRUE(is_stiffness_unit(stiffness)) << stiffness;
+  }
+  for (const auto* other : {"rad/Nm", "V/V", "m/s", "rad/s", "furlong/N", ""}) {
+    EXPECT_FALSE(is_stiffness_unit(other)) << other;
+  }
 }
 
 }  // namespace

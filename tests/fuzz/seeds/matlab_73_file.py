@@ -68,6 +68,17 @@ def classes(file, hidden):
     numbers(file, "f", column(1.0 + TIME_S))
 
 
+def units(file, hidden):
+    recorder = set_class(file.create_group("rec"), "struct")
+    instants = set_class(recorder.create_group("X"), "struct")
+    numbers(instants, "Data", column(TIME_S))
+    signals = set_class(recorder.create_group("Y"), "struct")
+    references(signals, "Data", [numbers(hidden, "a", column(TORQUE_N_m)),
+                                 numbers(hidden, "b", column(np.degrees(ANGLE_rad)))])
+    references(signals, "Name", [text(hidden, "c", "torque"), text(hidden, "d", "theta")])
+    references(signals, "Unit", [text(hidden, "e", "N\u00b7m"), text(hidden, "f", "\u00b0")])
+
+
 def objects(file, hidden):
     for name in ("timeseries", "table"):
         item = numbers(file, name[:2], np.arange(6, dtype="u4").reshape(1, -1), name)
@@ -81,7 +92,7 @@ def circular(file, hidden):
     item[0, 0] = item[1, 0] = item.ref
 
 
-for write in (structure, cells, classes, objects, circular):
+for write in (structure, cells, classes, units, objects, circular):
     path = FOLDER / f"{write.__name__}.mat"
     with h5py.File(path, "w", userblock_size=512, libver="earliest") as file:
         write(file, file.create_group("#refs#"))

@@ -1,0 +1,152 @@
+// Units that MATLAB files tell of their signals and frequencies, in any letters.
+#include "arm/input_error.hpp"
+#include "measured/files/foreign_file.hpp"
+#include "measured/files/text_encoding.hpp"
+#include "tests/measured/mat_structures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <matio.h>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flexarm::measured {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class MatUnits : public MatSignals {};
+
+/// Letters of one row as MATLAB keeps them, in UTF-16.
+matvar_t* text16(std::u16string letters) {
+  std::array<std::size_t, 2> size{1, letters.size()};
+  return Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT16, 2, size.data(), letters.data(), 0);
+}
+
+/// Letters of one row, a byte each.
+matvar_t* text_latin1(std::string bytes) {
+  std::array<std::size_t, 2> size{1, bytes.size()};
+  return Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, size.data(), bytes.data(), 0);
+}
+
+TEST_F(MatUnits, AUnitBeyondAsciiIsRead) {
+  for (const bool is_latin1 : {true, false}) {
+    const auto degrees = [&] { return is_latin1 ? text_latin1("\xb0") : text16(u"\u00b0"); };
+    const auto file = read(
+        {{"rec",
+          structures({{{"X", structures({{{"Name", text("Host")}, {"Data", column(times_s())}}})},
+                       {"Y", structures({{{"Name", text("torque")},
+                                          {"Unit", text16(u"N\u00b7m")},
+                                          {"Data", column(torques_N_m())}},
+                                         {{"Name", text16(u"\u03b8")},
+                                          {"Unit", degrees()},
+                                          {"Data", column(angles_rad())}}})}}})}});
+    ASSERT_EQ(file.table.columns.size(), 3U);
+    EXPECT_EQ(file.table.columns[1].unit, "N m");
+    EXPECT_EQ(file.table.columns[2].unit, "deg");
+    EXPECT_EQ(file.table.columns[2].name, "\xce\xb8");
+  }
+}
+
+TEST_F(MatUnits, AUnitThatIsNotReadIsRefused) {
+  std::array<std::size_t, 2> two_rows{2, 3};
+  std::string letters = "ddeegg";
+  try {
+    read({{"a", structures({{{"t", column(times_s())},
+                             {"theta", column(angles_rad())},
+                             {"Unit", Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2,
+                                                    two_rows.data(), letters.data(), 0)}}})}});
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.Unit: a text of several rows"));
+    EXPECT_THAT(error.what(), HasSubstr("must be a text of one row"));
+  }
+}
+
+TEST_F(MatUnits, HowASignalIsDrawnIsNoSignal) {
+  const auto signal = [](const char* label, const std::vector<double>& values) {
+    return structures({{{"values", column(values)},
+                        {"dimensions", numbers({1.0, 1.0}, {1, 2})},
+                        {"label", text(label)},
+                        {"plotStyle", numbers({0.0, 0.0}, {1, 2})}}});
+  };
+  const auto scope = [&](const char* label, const std::vector<double>& values) {
+    return structures({{{"time", column(times_s())}, {"signals", signal(label, values)}}});
+  };
+  const auto file =
+      read({{"a", scope("torque", torques_N_m())}, {"b", scope("hub angle", angles_rad())}});
+  expect_told(file);
+  EXPECT_THAT(names_in(file), ElementsAre("a.time", "torque", "hub angle"));
+}
+
+matvar_t* complex_column(const std::vector<double>& real) {
+  std::vector<double> re = real;
+  std::vector<double> im(real.size(), 0.5);
+  std::array<std::size_t, 2> size{real.size(), 1};
+  mat_complex_split_t parts{re.data(), im.data()};
+  return Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), &parts, MAT_F_COMPLEX);
+}
+
+TEST_F(MatUnits, TheUnitOfFrequenciesIsThatBesideThemOrSaidToBeAssumed) {
+  constexpr double kTurn_rad = 6.283185307179586;
+  const auto frd = [](std::vector<Field> units) {
+    std::vector<Field> fields = {{"ResponseData", complex_column({1.0, 2.0, 3.0})},
+                                 {"Frequency", column({1.0, 2.0, 3.0})}};
+    fields.insert(fields.end(), units.begin(), units.end());
+    return structures({fields});
+  };
+  const auto second_Hz = [&](std::vector<Field> units) {
+    return read({{"G", frd(std::move(units))}}).responses.at(0).frequency_Hz.at(1);
+  };
+  EXPECT_NEAR(second_Hz({{"FrequencyUnit", text("rad/s")}}), 2.0 / kTurn_rad, 1e-15);
+  EXPECT_NEAR(second_Hz({{"FrequencyUnit", text("rad/TimeUnit")}, {"TimeUnit", text("seconds")}}),
+              2.0 / kTurn_rad, 1e-15);
+  EXPECT_EQ(second_Hz({{"FrequencyUnit", text("kHz")}}), 2000.0);
+  EXPECT_THROW(second_Hz({{"FrequencyUnit", text("rad/TimeUnit")}, {"TimeUnit", text("hours")}}),
+               arm::InputError);
+  EXPECT_THROW(second_Hz({{"Units", text("rad/s")}}), arm::InputError);  // of which of the two?
+  EXPECT_THAT(read({{"G", frd({})}}).table.assumptions,
+              ElementsAre("unit of G.Frequency not given; Hz assumed"));
+  const auto named = read(
+      {{"f_kHz", column({1.0, 2.0, 3.0})}, {"hub_angle_deg", complex_column({1.0, 2.0, 3.0})}});
+  ASSERT_EQ(named.responses.size(), 1U);
+  EXPECT_EQ(named.responses[0].frequency_Hz[1], 2000.0);
+  EXPECT_EQ(named.responses[0].unit, "deg");
+  EXPECT_THAT(named.table.assumptions, ElementsAre("f_kHz holds frequencies in kHz"));
+}
+
+TEST_F(MatUnits, BesideTimesTheUnitOfWIsThatOfAVelocity) {
+  const auto file = read({{"s", structures({{{"t", column(times_s())},
+                                             {"w", column(angles_rad())},
+                                             {"unit", text("deg/s")}}})}});
+  ASSERT_EQ(file.table.columns.size(), 2U);
+  EXPECT_EQ(file.table.columns[1].unit, "deg/s");
+}
+
+TEST(MatText, CodeUnitsBecomeUtf8) {
+  using Units = std::vector<double>;
+  EXPECT_EQ(text_of_units(Units{'d', 0xb0}), "d\xc2\xb0");
+  EXPECT_EQ(text_of_units(Units{0xd835, 0xdf03}), "\xf0\x9d\x9c\x83");
+  EXPECT_EQ(text_of_units(Units{}), "");
+  for (const Units& none : {Units{0xd835}, Units{0xdf03, 'a'}, Units{'\n'}, Units{65.5},
+                            Units{-1.0}, Units{65536.0}, Units{0x7f}}) {
+    EXPECT_EQ(text_of_units(none), std::nullopt) << none.front();
+  }
+}
+
+TEST(MatLevel73, AUnitBeyondAsciiIsRead) {
+  const auto file = read_foreign_file(file_of_level73("units.mat"));
+  EXPECT_THAT(names_in(file), ElementsAre("time", "torque", "theta"));
+  EXPECT_EQ(file.table.columns[1].unit, "N m");
+  EXPECT_EQ(file.table.columns[2].unit, "deg");
+}
+
+}  // namespace
+}  // namespace flexarm::measured

@@ -36,14 +36,6 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
-/// Fields that hold a signal and say nothing of it: "torque.signals.values" is "torque".
-bool is_holder(string_view field) {
-  constexpr std::array<string_view, 7> kHolders = {"values",  "value",  "data",   "column",
-                                                   "signals", "signal", "samples"};
-  const std::string letters = plain_letters(field.substr(0, field.find_first_of("({")));
-  return std::ranges::count(kHolders, string_view(letters)) > 0;
-}
-
 /// The name without its unit, and without the structure that it is a field of.
 std::string base_of(const ColumnLabel& label) {
   std::string base = split_column_name(label.name).base;

@@ -136,6 +136,13 @@ std::span<const OpenWords> open_words() {
   return kOpen;
 }
 
+bool is_holder(string_view field) {
+  constexpr std::array<string_view, 7> kHolders = {"values",  "value",  "data",   "column",
+                                                   "signals", "signal", "samples"};
+  const std::string letters = plain_letters(field.substr(0, field.find_first_of("({")));
+  return std::ranges::count(kHolders, string_view(letters)) > 0;
+}
+
 std::string plain_letters(string_view name) {
   std::string out;
   while (!name.empty()) {

@@ -380,6 +380,21 @@ bool ForeignColumn::holds_nothing() const {
   return !is_text() && std::ranges::all_of(values, [](double value) { return std::isnan(value); });
 }
 
+std::vector<std::string> stray_texts(const ForeignTable& table) {
+  std::vector<std::string> sentences;
+  for (const auto& column : table.columns) {
+    if (column.stray.empty()) continue;
+    const std::string place = table.line_of_row.empty()
+                                  ? fmt::format("sample {}", column.stray_row + 1)
+                                  : fmt::format("line {}", line_of(table, column.stray_row));
+    sentences.push_back(
+        fmt::format("{} = {} in {}: no number, as its other cells are; write the number, or leave "
+                    "the cell empty for a missing sample",
+                    arm::shown(column.name), arm::shown(column.stray), place));
+  }
+  return sentences;
+}
+
 std::size_t find_column(const ForeignTable& table, string_view name) {
   std::vector<std::string> names;
   for (const auto& column : table.columns) names.push_back(column.name);

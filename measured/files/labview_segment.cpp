@@ -5,6 +5,7 @@
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/record_constants.hpp"
 #include "measured/files/time_stamp.hpp"
 #include "measured/files/universal_grid.hpp"
 

@@ -262,19 +262,22 @@ bool is_unused(const std::string& column, const ImportedFile& imported) {
 /// Leaves out the rows with empty cells; they are missing samples.
 void leave_out_incomplete(ForeignTable& table, const FileChoice& choice, ImportedFile& imported) {
   const auto time = imported.columns.find("time");
+  const bool has_times = time != imported.columns.end() && time->second.expression.empty();
   std::optional<double> start;
-  if (time != imported.columns.end() && time->second.expression.empty()) {
+  if (has_times) {
     const auto& times = table.columns[measured::find_column(table, time->second.name)].values;
     if (!times.empty() && !std::isnan(times.front())) start = times.front();
   }
   auto kept = measured::keep_complete_rows(
       table, imported.columns, imported.reference ? &imported.reference->mapping : nullptr,
       choice.columns.own_rates());
+  const auto seconds = [&](double told) {
+    const auto unit = measured::unit_of("time", time->second.unit).value_or(measured::Unit{});
+    return unit.to_si(told * time->second.scale);
+  };
   if (kept.rows.size() < kept.rows_in_file) {
-    if (start && kept.rows.front() > 0) {
-      const auto unit = measured::unit_of("time", time->second.unit).value_or(measured::Unit{});
-      imported.start_s = unit.to_si(*start * time->second.scale);
-    }
+    if (start && kept.rows.front() > 0) imported.start_s = seconds(*start);
+    if (has_times && kept.period) imported.period_s = seconds(*kept.period);
     imported.rows = std::move(kept.rows);
   }
   imported.is_driven_before = kept.is_driven_before;

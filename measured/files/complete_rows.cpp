@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/time_grid.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -65,6 +66,7 @@ class RowKeeper {
     find_any();
     for (const auto& column : used_) treat_own_rate(column);
     find_complete();
+    if (kept_.rows.size() < kept_.rows_in_file) find_period();
     leave_out();
     return std::move(kept_);
   }
@@ -246,6 +248,26 @@ class RowKeeper {
       for (std::size_t row = 0; row < kept_.rows.front(); ++row) {
         kept_.is_driven_before |= !std::isnan(values[row]) && values[row] != 0.0;
       }
+    }
+  }
+
+  /// Of rows that are chosen by --own-rate QUANTITY=rows the grid is their own.
+  void find_period() {
+    const bool are_chosen = std::ranges::any_of(
+        own_rates_, [](const auto& entry) { return entry.second == Between::rows; });
+    if (are_chosen) return;
+    const auto time = std::ranges::find(used_, kTime, &UsedColumn::quantity);
+    if (time == used_.end()) return;
+    const std::vector<double>& all = values_of(*time);
+    std::vector<double> times;
+    for (const auto row : any_) times.push_back(all[row]);
+    for (const auto& grid : {times, all}) {
+      const bool is_even = grid.size() >= 2 &&
+                           std::ranges::all_of(grid, [](double t) { return std::isfinite(t); }) &&
+                           !grid_fault(grid);
+      if (!is_even) continue;
+      kept_.period = (grid.back() - grid.front()) / static_cast<double>(grid.size() - 1);
+      return;
     }
   }
 

@@ -106,6 +106,21 @@ TEST(CompleteRows, AColumnOfItsOwnRateAsksForWhatStandsBetween) {
   EXPECT_THAT(keep(rows, {{"torque", Between::rows}}).rows, ElementsAre(0, 4, 8));
 }
 
+TEST(CompleteRows, TheEvenGridOfAllRowsIsKept) {
+  const auto period_of = [](const char* text, const OwnRates& rates = {}) {
+    auto table = parse_foreign_table(text, "log");
+    return keep(table, rates).period;
+  };
+  const char* one_of_three = "t,u,y\n0,1,2\n2,1,2\n4,,2\n6,1,2\n8,1,2\n10,,2\n12,1,2\n";
+  EXPECT_EQ(period_of(one_of_three), 2.0);
+  EXPECT_EQ(period_of(one_of_three, {{"torque", Between::rows}}), std::nullopt);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n4,1,2\n"), 2.0);
+  // Other rows are of something else, or the clock is uneven.
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n1,,\n2,1,3\n3,,\n4,1,\n5,,\n6,1,5\n"), 2.0);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n7,1,2\n8,1,2\n"), std::nullopt);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,1,2\n4,1,2\n"), std::nullopt);
+}
+
 /// All columns have their numbers in the same rows: other rows are of something else.
 TEST(CompleteRows, RowsWithoutAnyNumberAreNoRate) {
   auto table = parse_foreign_table("t,u,y\n0,1,2\n1,,\n2,1,3\n3,,\n4,1,4\n5,,\n6,1,5\n", "log");

@@ -11,6 +11,8 @@ namespace flexarm::measured {
 struct QuantityWords {
   std::string_view quantity;  ///< standard name
   std::span<const std::string_view> words;
+  /// Of words that are the quantity only in a unit of it, and where no other column is.
+  bool needs_unit = false;
 };
 
 /// The words of names that tell a quantity, whatever else the file says.

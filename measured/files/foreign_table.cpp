@@ -58,8 +58,9 @@ bool is_passed_over(string_view line) {
 /// Numbers and time stamps among the cells.
 std::size_t count_numbers(std::span<const string_view> cells, char decimal) {
   return static_cast<std::size_t>(std::ranges::count_if(cells, [&](string_view cell) {
-    return parse_cell(cell, decimal).has_value() ||
-           (cell.find(':') != string_view::npos && parse_time_stamp(cell));
+    if (parse_cell(cell, decimal)) return true;
+    const auto stamp = parse_time_stamp(cell);
+    return stamp && stamp->clock_ns;
   }));
 }
 

@@ -188,6 +188,8 @@ TEST(ColumnName, HeadersAreTakenApart) {
   };
   expect("Time (ms)", "Time", "ms");
   expect("strain@0.05 [1]", "strain@0.05", "1");
+  expect("strain(1)", "strain(1)", "");
+  expect("effort[2]", "effort[2]", "");
   expect("t_s", "t", "s");
   expect("t/s", "t", "s");
   expect("hub1_deg", "hub1", "deg");

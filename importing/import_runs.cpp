@@ -163,6 +163,7 @@ std::vector<ImportedRun> runs_of_part(const ImportedFile& file, const Part& part
   options.clock = arm::read_word("--clock", choice.clock, std::array{Clock::stamped, Clock::even});
   options.torque_hold = hold_of(choice);
   options.longest_filled_gap = static_cast<std::size_t>(choice.longest_filled_gap);
+  options.period_s = file.period_s;
   measured::EvenRecords even = measured::make_even(wanted, options);
   bool has_start = first == 0 && even.has_first_sample && !file.is_driven_before;
   if (choice.decimation && even.stretches.size() > 1) {

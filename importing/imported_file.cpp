@@ -151,6 +151,12 @@ std::string besides(const std::vector<std::string>& left_out) {
   return "; not read: " + arm::shown(fmt::format("{}", fmt::join(left_out, "; ")), 400);
 }
 
+/// "; hub_angle = #FOO in line 3: ...", of columns that one sign keeps from being numbers.
+std::string strays(const ForeignTable& table) {
+  const auto sentences = measured::stray_texts(table);
+  return sentences.empty() ? "" : fmt::format("; {}", fmt::join(sentences, "; "));
+}
+
 /// " (log{1} increases evenly, as a time does)", of the only column that does.
 std::string likely_time(const ForeignTable& table) {
   std::vector<std::string> found;
@@ -182,11 +188,12 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
     const bool is_time = quantity == std::string_view("time");
     throw InputError(fmt::format(
         "{0}: column not recognised; columns: {1}{2}; assign one with --column "
-        "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}",
+        "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}{7}",
         quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
         quantity == std::string_view("torque") ? asked(guess, true) : "", besides(file.left_out),
         file.incomplete_response.empty() ? ""
-                                         : "; no frequency response: " + file.incomplete_response));
+                                         : "; no frequency response: " + file.incomplete_response,
+        strays(file.table)));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -196,10 +203,10 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
         fmt::format("no column is a sensor; {0}: {1}? Choose one with --column {0}=NAME", quantity,
                     arm::shown(fmt::format("{}", fmt::join(names, " or ")), 400)));
   }
-  throw InputError(
-      fmt::format("no column is a sensor; columns: {}; assign one with --column "
-                  "hub_angle=NAME:UNIT:SCALE{}{}",
-                  join_names(labels), asked(guess, false), besides(file.left_out)));
+  throw InputError(fmt::format(
+      "no column is a sensor; columns: {}; assign one with --column "
+      "hub_angle=NAME:UNIT:SCALE{}{}{}",
+      join_names(labels), asked(guess, false), besides(file.left_out), strays(file.table)));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -255,23 +262,27 @@ bool is_unused(const std::string& column, const ImportedFile& imported) {
 /// Leaves out the rows with empty cells; they are missing samples.
 void leave_out_incomplete(ForeignTable& table, const FileChoice& choice, ImportedFile& imported) {
   const auto time = imported.columns.find("time");
+  const bool has_times = time != imported.columns.end() && time->second.expression.empty();
   std::optional<double> start;
-  if (time != imported.columns.end() && time->second.expression.empty()) {
+  if (has_times) {
     const auto& times = table.columns[measured::find_column(table, time->second.name)].values;
     if (!times.empty() && !std::isnan(times.front())) start = times.front();
   }
   auto kept = measured::keep_complete_rows(
       table, imported.columns, imported.reference ? &imported.reference->mapping : nullptr,
       choice.columns.own_rates());
+  const auto seconds = [&](double told) {
+    const auto unit = measured::unit_of("time", time->second.unit).value_or(measured::Unit{});
+    return unit.to_si(told * time->second.scale);
+  };
   if (kept.rows.size() < kept.rows_in_file) {
-    if (start && kept.rows.front() > 0) {
-      const auto unit = measured::unit_of("time", time->second.unit).value_or(measured::Unit{});
-      imported.start_s = unit.to_si(*start * time->second.scale);
-    }
+    if (start && kept.rows.front() > 0) imported.start_s = seconds(*start);
+    if (has_times && kept.period) imported.period_s = seconds(*kept.period);
     imported.rows = std::move(kept.rows);
   }
   imported.is_driven_before = kept.is_driven_before;
   std::ranges::move(kept.notes, std::back_inserter(imported.assumptions));
+  std::ranges::move(kept.warnings, std::back_inserter(imported.warnings));
 }
 
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
@@ -308,6 +319,9 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     const bool is_needed_for_torque = question.may_be_torque && guess.mappings.contains("torque");
     if (is_needed_for_torque || !is_unused(question.column, imported)) continue;
     imported.warnings.push_back("not imported: " + question.sentence);
+  }
+  for (const auto& sentence : measured::stray_texts(file.table)) {
+    imported.warnings.push_back("not imported: " + sentence);
   }
   imported.columns = std::move(guess.mappings);
   leave_out_incomplete(file.table, choice, imported);

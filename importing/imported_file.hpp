@@ -29,6 +29,7 @@ struct ImportedFile {
   measured::RunData data;                    ///< a time record may be uneven
   std::vector<std::size_t> rows;             ///< of its samples in the file, from 0; empty: all
   std::optional<double> start_s;             ///< of the file, where its first row is incomplete
+  std::optional<double> period_s;            ///< of the file's grid, where rows are left out of it
   bool is_driven_before = false;             ///< a torque acts in incomplete rows before the first
   measured::ColumnMappings columns;          ///< that were used
   std::optional<ReferenceColumn> reference;  ///< of a time record in closed loop

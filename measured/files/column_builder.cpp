@@ -110,8 +110,26 @@ void ColumnBuilder::convert_stamps() {
   }
 }
 
+void ColumnBuilder::find_stray(ForeignColumn& column) const {
+  const auto is_text = [&](const std::string& cell) {
+    return !is_missing_number(cell) && !parse_cell(cell, decimal_);
+  };
+  const auto& texts = column.texts;
+  const auto first = std::ranges::find_if(texts, is_text);
+  if (first == texts.end()) return;
+  const bool is_alone = std::all_of(first, texts.end(), [&](const std::string& cell) {
+    return cell == *first || !is_text(cell);
+  });
+  const bool has_numbers = std::ranges::any_of(
+      texts, [&](const std::string& cell) { return parse_cell(cell, decimal_).has_value(); });
+  if (!is_alone || !has_numbers) return;
+  column.stray = *first;
+  column.stray_row = static_cast<std::size_t>(first - texts.begin());
+}
+
 ForeignTable ColumnBuilder::finish() {
   convert_stamps();
+  for (auto& column : columns_) find_stray(column.column);
   while (columns_.size() > 1 && columns_.back().kind == Kind::open &&
          columns_.back().column.name.starts_with("column ")) {
     columns_.pop_back();

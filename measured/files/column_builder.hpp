@@ -43,6 +43,7 @@ class ColumnBuilder {
   void add_cell(Column& column, std::string_view cell) const;
   void begin_texts(Column& column) const;
   void convert_stamps();
+  void find_stray(ForeignColumn& column) const;
   const Column* dates_for_clocks() const;
 
   std::vector<Column> columns_;

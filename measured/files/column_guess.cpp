@@ -26,6 +26,7 @@ struct ColumnCandidate {
   std::string quantity;
   std::size_t column = 0;
   bool is_standard = false;  ///< by its standard name
+  bool is_by_unit = false;   ///< by a word that needs its unit
 };
 
 std::optional<std::string> standard(string_view base) {
@@ -34,14 +35,6 @@ std::optional<std::string> standard(string_view base) {
   } catch (const arm::InputError&) {
     return std::nullopt;
   }
-}
-
-/// Fields that hold a signal and say nothing of it: "torque.signals.values" is "torque".
-bool is_holder(string_view field) {
-  constexpr std::array<string_view, 7> kHolders = {"values",  "value",  "data",   "column",
-                                                   "signals", "signal", "samples"};
-  const std::string letters = plain_letters(field.substr(0, field.find_first_of("({")));
-  return std::ranges::count(kHolders, string_view(letters)) > 0;
 }
 
 /// The name without its unit, and without the structure that it is a field of.
@@ -64,10 +57,10 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
   }
   std::vector<ColumnCandidate> found;
   const std::string letters = plain_letters(base);
-  for (const auto& [quantity, words] : quantity_words()) {
+  for (const auto& [quantity, words, needs_unit] : quantity_words()) {
     if (std::ranges::count(words, letters) == 0) continue;
-    if (is_unit_of(quantity, label.unit)) {
-      found.push_back({std::string(quantity), column, false});
+    if (is_unit_of(quantity, label.unit) && !(needs_unit && label.unit.empty())) {
+      found.push_back({std::string(quantity), column, false, needs_unit});
     }
   }
   return found;
@@ -88,7 +81,7 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
                                       fmt::format(fmt::runtime(open.option), name)),
                           open.may_be_torque};
   }
-  for (const auto& [quantity, words] : quantity_words()) {
+  for (const auto& [quantity, words, needs_unit] : quantity_words()) {
     if (std::ranges::count(words, letters) == 0 || is_unit_of(quantity, label.unit)) continue;
     return ColumnQuestion{
         label.name,
@@ -154,6 +147,9 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     if (given.contains(quantity) || found.empty()) continue;
     if (std::ranges::count(found, true, &ColumnCandidate::is_standard) > 0) {
       std::erase_if(found, [](const ColumnCandidate& entry) { return !entry.is_standard; });
+    }
+    if (!std::ranges::all_of(found, &ColumnCandidate::is_by_unit)) {
+      std::erase_if(found, &ColumnCandidate::is_by_unit);
     }
     if (found.size() > 1) {
       std::vector<std::string> alike;

@@ -84,11 +84,13 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
   values.reserve(numbers.size());
   for (row = 0; row < numbers.size(); ++row) {
     values.push_back(unit.to_si(numbers[row] * mapping.scale));
-    if (std::isfinite(values.back())) continue;
+    if (std::isfinite(values.back()) && !(std::abs(numbers[row]) >= kOverRange)) continue;
     throw InputError(fmt::format(
         "{}: {} = {}{}: must be a finite number{}", source.name, what, numbers[row],
         table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)",
-        std::isnan(numbers[row]) ? "; flexarm import takes such rows as missing samples" : ""));
+        std::isnan(numbers[row]) || std::abs(numbers[row]) >= kOverRange
+            ? "; flexarm import takes such rows as missing samples"
+            : ""));
   }
   row = 0;
   return values;
@@ -97,8 +99,9 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
 std::vector<double> column_values(const ForeignTable& table, const ForeignColumn& column,
                                   const Source& source, std::size_t& row) {
   if (column.is_text()) {
+    row = column.stray_row;
     throw InputError(fmt::format("column {} = {}: not a number; {} must be numeric",
-                                 arm::shown(column.name), arm::shown(column.texts.front()),
+                                 arm::shown(column.name), arm::shown(column.texts[row]),
                                  source.name));
   }
   return si_values(table, column.values, "column " + arm::shown(column.name), source, row);

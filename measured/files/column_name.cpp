@@ -38,9 +38,11 @@ bool split_at_brackets(string_view text, string_view& front, string_view& inside
   return false;
 }
 
-/// "(:,1)" or "[3]" is an index of the name in front, and no unit. [1] is the unit of a strain.
-bool is_index(string_view inside) {
-  return inside != "1" && !inside.empty() &&
+/// "(:,1)", "(1)" or "[3]" is an index of the name in front, and no unit. [1] is the unit of a
+/// strain.
+bool is_index(string_view text, string_view inside) {
+  const bool is_strain = inside == "1" && text.ends_with(']');
+  return !is_strain && !inside.empty() &&
          inside.find_first_not_of("0123456789:, ") == string_view::npos;
 }
 
@@ -82,7 +84,7 @@ ColumnName split_column_name(string_view header) {
   string_view front;
   string_view inside;
   if (split_at_brackets(text, front, inside) && !front.empty()) {
-    if (is_index(inside)) return {std::string(text), ""};
+    if (is_index(text, inside)) return {std::string(text), ""};
     return {std::string(front), unit_in_brackets(inside)};
   }
   if (const auto slash = text.find(" / "); slash != string_view::npos) {

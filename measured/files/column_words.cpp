@@ -63,7 +63,10 @@ constexpr Word kTipDeflectionWords[] = {"tipdeflection", "tipdefl", "deflection"
                                         // French
                                         "fleche"};
 
-constexpr std::array<QuantityWords, 7> kQuantities = {{
+constexpr Word kPositionWords[] = {"position", "jointposition", "actualposition", "positionactual",
+                                   "pos"};
+
+constexpr std::array<QuantityWords, 8> kQuantities = {{
     {"time", kTimeWords},
     {"torque", kTorqueWords},
     {"hub_angle", kHubAngleWords},
@@ -71,6 +74,7 @@ constexpr std::array<QuantityWords, 7> kQuantities = {{
     {"tip_acceleration", kTipAccelerationWords},
     {"tip_displacement", kTipDisplacementWords},
     {"tip_deflection", kTipDeflectionWords},
+    {"hub_angle", kPositionWords, true},
 }};
 
 constexpr Word kPathWords[] = {"auslenkung",        "verschiebung", "weg",
@@ -101,11 +105,15 @@ constexpr string_view kVoltages[] = {"V", "mV"};
 constexpr string_view kPath =
     "--column 'tip_deflection={0}' (relative to the rigid arm) or "
     "--column 'tip_displacement={0}' (absolute)";
+constexpr string_view kPosition =
+    "--column 'hub_angle={0}:rad', --column 'tip_deflection={0}:m' (relative to the rigid arm) or "
+    "--column 'tip_displacement={0}:m' (absolute)";
 constexpr string_view kGauge = "--column 'strain@X={0}', X in m from the hub";
 constexpr string_view kCurrent = "--torque 'K*[{0}]', K in N m/A";
 constexpr string_view kVoltage = "--torque 'K*[{0}]', K in N m/V";
 
-constexpr std::array<OpenWords, 4> kOpen = {{
+constexpr std::array<OpenWords, 5> kOpen = {{
+    {kPositionWords, kLengths, "an angle of the hub or a displacement", kPosition},
     {kPathWords, kLengths, "a displacement", kPath},
     {kStrainWords, kStrains, "a strain at a place that the file does not tell", kGauge},
     {kCurrentWords, kCurrents, "a motor current", kCurrent, true},
@@ -134,6 +142,13 @@ std::span<const QuantityWords> quantity_words() {
 
 std::span<const OpenWords> open_words() {
   return kOpen;
+}
+
+bool is_holder(string_view field) {
+  constexpr std::array<string_view, 7> kHolders = {"values",  "value",  "data",   "column",
+                                                   "signals", "signal", "samples"};
+  const std::string letters = plain_letters(field.substr(0, field.find_first_of("({")));
+  return std::ranges::count(kHolders, string_view(letters)) > 0;
 }
 
 std::string plain_letters(string_view name) {

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/time_grid.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace flexarm::measured {
@@ -55,13 +57,16 @@ class RowKeeper {
       : table_(table), own_rates_(own_rates), used_(used_columns(table, mappings, reference)) {}
 
   CompleteRows keep() {
+    for (const auto& column : used_) take_out_over_range(column);
     for (const auto& column : used_) require_numbers(column);
+    for (const auto& column : used_) doubt_signs(column);
     require_known_rates();
     if (used_.empty() || !are_of_one_length()) return {};
     kept_.rows_in_file = values_of(used_.front()).size();
     find_any();
     for (const auto& column : used_) treat_own_rate(column);
     find_complete();
+    if (kept_.rows.size() < kept_.rows_in_file) find_period();
     leave_out();
     return std::move(kept_);
   }
@@ -69,6 +74,51 @@ class RowKeeper {
  private:
   std::vector<double>& values_of(const UsedColumn& column) {
     return table_.columns[column.place].values;
+  }
+
+  void take_out_over_range(const UsedColumn& used) {
+    std::size_t count = 0;
+    double first = 0.0;
+    for (double& value : values_of(used)) {
+      if (!(std::abs(value) >= kOverRange) || std::isinf(value)) continue;
+      if (count++ == 0) first = value;
+      value = kUnknown;
+    }
+    if (count == 0) return;
+    kept_.notes.push_back(
+        fmt::format("{}: {} cell{} of column {} with {:g} or more, an instrument's sign of no "
+                    "measurement; taken as empty",
+                    used.quantity, count, count == 1 ? "" : "s",
+                    arm::shown(table_.columns[used.place].name), first));
+  }
+
+  /// Warns of each usual sign of a missing sample that lies far outside the other numbers.
+  void doubt_signs(const UsedColumn& used) {
+    constexpr double kSigns[] = {-999.0,  999.0,         -9999.0,      9999.0,       -99999.0,
+                                 99999.0, -999999.0,     999999.0,     -32768.0,     32767.0,
+                                 65535.0, -2147483648.0, 2147483647.0, 4294967295.0, -1e20,
+                                 1e20,    -1e30,         1e30};
+    const auto& values = values_of(used);
+    for (const double sign : kSigns) {
+      const auto count = std::ranges::count(values, sign);
+      if (count == 0) continue;
+      double lowest = std::numeric_limits<double>::infinity();
+      double highest = -lowest;
+      for (const double value : values) {
+        if (std::isnan(value) || value == sign) continue;
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+      if (lowest > highest) continue;
+      const double distance = std::max(lowest - sign, sign - highest);
+      if (!(distance > highest - lowest)) continue;
+      kept_.warnings.push_back(fmt::format(
+          "{}: {} cell{} of column {} {} {:.10g}, the others lie from {:.6g} to {:.6g}; "
+          "if {:.10g} stands for a missing sample, empty {}",
+          used.quantity, count, count == 1 ? "" : "s", arm::shown(table_.columns[used.place].name),
+          count == 1 ? "is" : "are", sign, lowest, highest, sign,
+          count == 1 ? "this cell" : "these cells"));
+    }
   }
 
   void require_numbers(const UsedColumn& used) {
@@ -198,6 +248,26 @@ class RowKeeper {
       for (std::size_t row = 0; row < kept_.rows.front(); ++row) {
         kept_.is_driven_before |= !std::isnan(values[row]) && values[row] != 0.0;
       }
+    }
+  }
+
+  /// Of rows that are chosen by --own-rate QUANTITY=rows the grid is their own.
+  void find_period() {
+    const bool are_chosen = std::ranges::any_of(
+        own_rates_, [](const auto& entry) { return entry.second == Between::rows; });
+    if (are_chosen) return;
+    const auto time = std::ranges::find(used_, kTime, &UsedColumn::quantity);
+    if (time == used_.end()) return;
+    const std::vector<double>& all = values_of(*time);
+    std::vector<double> times;
+    for (const auto row : any_) times.push_back(all[row]);
+    for (const auto& grid : {times, all}) {
+      const bool is_even = grid.size() >= 2 &&
+                           std::ranges::all_of(grid, [](double t) { return std::isfinite(t); }) &&
+                           !grid_fault(grid);
+      if (!is_even) continue;
+      kept_.period = (grid.back() - grid.front()) / static_cast<double>(grid.size() - 1);
+      return;
     }
   }
 

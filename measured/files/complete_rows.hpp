@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,20 @@ struct CompleteRows {
   std::size_t rows_in_file = 0;
   /// Whether a torque acts in the incomplete rows in front of the first complete one.
   bool is_driven_before = false;
-  std::vector<std::string> notes;  ///< a sentence on what was filled or left out
+  /// Of an even grid that the times of all rows are on, or of all with a number beside the time, in
+  /// the unit of the file; empty for uneven times, where no row is left out, and with
+  /// `Between::rows`.
+  std::optional<double> period;
+  std::vector<std::string> notes;     ///< a sentence on what was filled or left out
+  std::vector<std::string> warnings;  ///< a sentence on what may be missing samples
 };
 
 /// Leaves out the rows of `table` that have no number in a column that `mappings`, the reference of
 /// a closed loop (null without) or a standard header takes, as if they were not in the file.
+///
+/// Numbers of `kOverRange` and above are missing ones. A usual sign of a missing sample, -9999 or
+/// -32768, that lies farther from the other numbers of its column than these from each other stays,
+/// with a warning.
 ///
 /// A column is written at its own rate if the median distance of its numbers is two rows or more,
 /// of those rows that have a number in any such column but the time. Throws InputError for one that

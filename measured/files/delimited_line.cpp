@@ -11,6 +11,20 @@ namespace flexarm::measured {
 
 using std::string_view;
 
+namespace {
+
+/// NaN as Microsoft's C library prints it in any number of digits: -1.#IND, 1.#QNAN0.
+bool is_printed_nan(string_view cell) {
+  if (cell.starts_with('-')) cell.remove_prefix(1);
+  for (const string_view front : {"1.#IND", "1.#QNAN", "1.#SNAN", "1,#IND", "1,#QNAN", "1,#SNAN"}) {
+    if (!cell.starts_with(front)) continue;
+    return cell.find_first_not_of('0', front.size()) == string_view::npos;
+  }
+  return false;
+}
+
+}  // namespace
+
 string_view trimmed(string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
@@ -131,10 +145,13 @@ std::optional<double> parse_cell(string_view cell, char decimal) {
 }
 
 bool is_missing_number(string_view cell) {
-  constexpr std::array<string_view, 17> kSigns = {
-      "-",   "--",   "---",  "?",    "NA",      "N/A",     "n/a",    "na",       "#N/A",
-      "#NV", "null", "NULL", "Null", "1.#QNAN", "-1.#IND", "1.#IND", "-nan(ind)"};
-  return cell.empty() || std::ranges::count(kSigns, cell) > 0;
+  constexpr std::array<string_view, 33> kSigns = {
+      "-",      "--",      "---",    "?",        "NA",       "N/A",     "n/a",
+      "na",     "n.a.",    "N.A.",   "n.d.",     "k.A.",     "k. A.",   "<NA>",
+      "NaT",    "None",    "none",   "null",     "NULL",     "Null",    "#N/A",
+      "#NV",    "#NUM!",   "#ZAHL!", "#REF!",    "#BEZUG!",  "#VALUE!", "#WERT!",
+      "#NAME?", "#DIV/0!", "#NULL!", "nan(ind)", "-nan(ind)"};
+  return cell.empty() || std::ranges::count(kSigns, cell) > 0 || is_printed_nan(cell);
 }
 
 bool has_thousands_separators(string_view cell, char decimal) {

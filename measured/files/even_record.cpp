@@ -145,9 +145,26 @@ class EvenMaker {
  private:
   void note(std::string text) { out_.notes.push_back(std::move(text)); }
 
+  /// The steps on the grid that is known, or else those of the clock.
+  ClockSteps steps_of(std::span<const double> times_s) const {
+    if (!options_.period_s) return clock_steps(times_s);
+    ClockSteps steps = even_steps(times_s.size());
+    steps.period_s = *options_.period_s;
+    for (std::size_t k = 1; k < times_s.size(); ++k) {
+      steps.periods[k] = std::round((times_s[k] - times_s[k - 1]) / steps.period_s);
+      if (steps.periods[k] > 1.0) steps.gaps.push_back(k);
+    }
+    return steps;
+  }
+
   /// A record whose times do not go back.
   void add_part(TimeRecord part) {
-    if (is_too_short(part) || add_rounded(part)) return;
+    if (is_too_short(part)) return;
+    if (options_.period_s) {
+      add_clock(part);
+      return;
+    }
+    if (add_rounded(part)) return;
     leave_out_repeats(part);
     const auto changes = period_changes(part.time_s);
     if (changes.empty()) {
@@ -169,7 +186,7 @@ class EvenMaker {
 
   /// A record of one clock: times that increase, with gaps.
   void add_clock(const TimeRecord& part) {
-    const ClockSteps steps = clock_steps(part.time_s);
+    const ClockSteps steps = steps_of(part.time_s);
     std::size_t first = 0;
     for (const std::size_t gap : steps.gaps) {
       const double missing = steps.periods[gap] - 1.0;
@@ -237,7 +254,7 @@ class EvenMaker {
       out_.stretches.push_back(std::move(stretch));
       return;
     }
-    const ClockSteps steps = clock_steps(stretch.time_s);
+    const ClockSteps steps = steps_of(stretch.time_s);
     const Jitter jitter =
         jitter_of(stretch.time_s, steps, 0, stretch.time_s.size(), kMostJitter_periods);
     double missing = 0.0;

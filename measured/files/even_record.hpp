@@ -4,6 +4,7 @@
 #include "measured/files/time_record.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ struct EvenOptions {
   TorqueHold torque_hold = TorqueHold::zero;
   /// A gap of missing samples <= this is filled by interpolation; a longer one splits the record.
   std::size_t longest_filled_gap = 3;
+  /// Of a record that was even before samples were taken out: each time is on this grid. Empty:
+  /// not known.
+  std::optional<double> period_s = std::nullopt;
   /// A stretch of samples < this is left out.
   std::size_t fewest_samples = 10;
 };
@@ -49,6 +53,8 @@ struct EvenRecords {
 ///   keeps its impulse; one of first-order hold linearly. A reference is held like the torque that
 ///   a controller makes of it, and so is its mean over each new step. With `Clock::even` the times
 ///   alone are replaced.
+///
+/// With `EvenOptions::period_s` there are only gaps, the steps above that period.
 ///
 /// `record` has two samples or more. Throws InputError where no stretch is long enough.
 EvenRecords make_even(const TimeRecord& record, const EvenOptions& options = {});

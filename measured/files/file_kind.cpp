@@ -134,6 +134,9 @@ std::optional<RecognisedFile> toml_file(string_view text) {
   return std::nullopt;
 }
 
+/// Any JSON that is no log, one that is cut off or at odds with itself among them.
+constexpr string_view kJsonWithoutLists = "is JSON without lists of numbers";
+
 /// A result of a command, by its schema.
 std::optional<RecognisedFile> json_file(string_view bytes) {
   constexpr string_view kSchema = "\"schema\"";
@@ -157,7 +160,7 @@ std::optional<RecognisedFile> json_file(string_view bytes) {
     parse_json_table(bytes, "");
     return as_log("is a log as JSON");
   } catch (const arm::InputError&) {
-    return RecognisedFile{FileKind::other, "is JSON without lists of numbers",
+    return RecognisedFile{FileKind::other, std::string(kJsonWithoutLists),
                           "a log has a list of objects, one a sample"};
   }
 }
@@ -254,6 +257,7 @@ arm::InputError wrong_file(string_view bytes, const std::string& file_name, File
                       // A table that may have been meant as one: the reader's own words say more.
                       (file->kind == FileKind::log && file->is.starts_with("is a table") &&
                        (due == FileKind::time_record || is_of_frequencies)) ||
+                      (due == FileKind::log && file->is == kJsonWithoutLists) ||
                       (due == FileKind::log && (file->kind == FileKind::time_record ||
                                                 file->kind == FileKind::frequency_record ||
                                                 file->kind == FileKind::modal_table));

@@ -58,8 +58,9 @@ bool is_passed_over(string_view line) {
 /// Numbers and time stamps among the cells.
 std::size_t count_numbers(std::span<const string_view> cells, char decimal) {
   return static_cast<std::size_t>(std::ranges::count_if(cells, [&](string_view cell) {
-    return parse_cell(cell, decimal).has_value() ||
-           (cell.find(':') != string_view::npos && parse_time_stamp(cell));
+    if (parse_cell(cell, decimal)) return true;
+    const auto stamp = parse_time_stamp(cell);
+    return stamp && stamp->clock_ns;
   }));
 }
 
@@ -154,19 +155,73 @@ class TableReader {
            numbers + static_cast<std::size_t>(missing) == cells.size();
   }
 
+  /// A row with a number beside time stamps.
+  bool is_row_of_numbers(string_view line) {
+    return is_row(line) && std::ranges::any_of(splitter_.split(line), [&](string_view cell) {
+             return parse_cell(cell, decimal()).has_value();
+           });
+  }
+
+  /// What a column is in the last rows of the sample, which are no head.
+  enum class LastCells { empty, numbers, texts };
+
+  /// Goes back from the end of the sample up to the first line that is no row.
+  std::vector<LastCells> last_cells() {
+    constexpr std::size_t kRows = 16;
+    std::vector<LastCells> last(reading_.cells, LastCells::empty);
+    std::size_t rows = 0;
+    for (std::size_t i = sample_.size(); i > 0 && rows < kRows; --i) {
+      const string_view line = sample_[i - 1].text;
+      if (is_passed_over(line)) continue;
+      if (!is_row_of_numbers(line) && !is_incomplete_row(line)) {
+        if (rows > 0) break;
+        continue;  // cut off
+      }
+      ++rows;
+      const auto cells = splitter_.split(line);
+      for (std::size_t k = 0; k < last.size(); ++k) {
+        if (is_missing_number(cells[k])) continue;
+        const bool is_number = count_numbers(cells.subspan(k, 1), decimal()) > 0;
+        last[k] = is_number && last[k] != LastCells::texts ? LastCells::numbers : LastCells::texts;
+      }
+    }
+    return last;
+  }
+
+  /// Whether a row has no text where the last rows have numbers, and no text that is the name of a
+  /// number where they have none: "Vertical Scale,1,0.5" is a line of a head.
+  bool is_like(string_view row, const std::vector<LastCells>& last) {
+    const auto cells = splitter_.split(row);
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      const bool is_number = count_numbers(cells.subspan(k, 1), decimal()) > 0;
+      if (is_number || is_missing_number(cells[k])) continue;
+      if (last[k] == LastCells::numbers) return false;
+      const bool is_name = last[k] == LastCells::empty && k + 1 < last.size() &&
+                           last[k + 1] == LastCells::numbers && !cells[k + 1].empty();
+      if (is_name) return false;
+    }
+    return true;
+  }
+
   /// A row and one that is at least meant to be begin the data; a line of numbers in front of a
-  /// line of names does not.
+  /// line of names does not, nor does one of settings.
   void find_first_row() {
     const std::size_t from = counted_ ? counted_->behind : 0;
+    const auto last = last_cells();
     for (std::size_t i = from; i + 1 < sample_.size() && reading_.cells > 0; ++i) {
-      if (!is_row(sample_[i].text)) continue;
+      if (!is_row(sample_[i].text) || !is_like(sample_[i].text, last)) continue;
       std::size_t next = i + 1;
       while (next + 1 < sample_.size() && is_passed_over(sample_[next].text)) ++next;
       const auto cells = splitter_.split(sample_[next].text);
       const bool has_numbers = count_numbers(cells, decimal()) >= kFewestNumbers;
       if (!has_numbers && !is_incomplete_row(sample_[next].text)) continue;
       first_ = i;
-      while (first_ > from && is_incomplete_row(sample_[first_ - 1].text)) --first_;
+      for (std::size_t before = i; before > from; --before) {
+        const string_view line = sample_[before - 1].text;
+        if (is_passed_over(line)) continue;
+        if (!is_incomplete_row(line) && !is_row_of_numbers(line)) break;
+        first_ = before - 1;
+      }
       return;
     }
     line_ = 1;
@@ -195,7 +250,10 @@ class TableReader {
     const bool is_numbers = std::ranges::all_of(names, [&](const std::string& name) {
       return name.empty() || parse_cell(name, decimal()).has_value();
     });
-    if (!are_enough || names.size() > reading_.cells || empty > 1 || is_numbers) {
+    const bool is_clock = std::ranges::count_if(names, [](const std::string& name) {
+                            return name.find(':') != std::string::npos && parse_time_stamp(name);
+                          }) >= 2;
+    if (!are_enough || names.size() > reading_.cells || empty > 1 || is_numbers || is_clock) {
       return std::nullopt;
     }
     names.resize(reading_.cells);
@@ -378,6 +436,21 @@ bool is_time_column(const ForeignColumn& column) {
 
 bool ForeignColumn::holds_nothing() const {
   return !is_text() && std::ranges::all_of(values, [](double value) { return std::isnan(value); });
+}
+
+std::vector<std::string> stray_texts(const ForeignTable& table) {
+  std::vector<std::string> sentences;
+  for (const auto& column : table.columns) {
+    if (column.stray.empty()) continue;
+    const std::string place = table.line_of_row.empty()
+                                  ? fmt::format("sample {}", column.stray_row + 1)
+                                  : fmt::format("line {}", line_of(table, column.stray_row));
+    sentences.push_back(
+        fmt::format("{} = {} in {}: no number, as its other cells are; write the number, or leave "
+                    "the cell empty for a missing sample",
+                    arm::shown(column.name), arm::shown(column.stray), place));
+  }
+  return sentences;
 }
 
 std::size_t find_column(const ForeignTable& table, string_view name) {

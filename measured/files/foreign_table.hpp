@@ -18,6 +18,8 @@ struct ForeignColumn {
   bool is_made = false;                 ///< times of a start and a period that the file tells
   bool is_left_out = false;             ///< by the user: not taken by its header
   std::string path = {};                ///< where it stands in a file of structures; empty: by name
+  std::string stray = {};     ///< the only text of a column that has numbers besides; empty: none
+  std::size_t stray_row = 0;  ///< where it stands first
 
   bool is_text() const { return !texts.empty(); }
   /// Whether it has no number at all.
@@ -33,6 +35,10 @@ struct ForeignTable {
   std::vector<int> line_of_row;  ///< empty where the file has no lines
   std::vector<std::string> assumptions;
 };
+
+/// "hub_angle = #FOO in line 3: no number, as its other cells are; ...", of the columns of `table`
+/// that are text for one sign alone.
+std::vector<std::string> stray_texts(const ForeignTable& table);
 
 /// Where the column of that name is (`column_place`); several may have one name. Throws InputError
 /// with the columns there are, and the one that was probably meant.

@@ -2,14 +2,18 @@
 
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
+#include "measured/files/column_builder.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/json_units.hpp"
 #include "measured/files/record_constants.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -48,6 +52,13 @@ bool is_by_row(const Json& object) {
     if (key != std::to_string(row++)) return false;
   }
   return true;
+}
+
+/// An object of texts, or of such objects: units by list.
+bool is_of_units(const Json& value) {
+  return value.is_object() && std::ranges::all_of(value, [](const Json& unit) {
+           return unit.is_string() || unit.is_null() || is_of_units(unit);
+         });
 }
 
 /// NaN and Infinity, which Python writes and JSON does not know, as null, outside of texts.
@@ -92,28 +103,25 @@ class JsonTableBuilder {
     }
   }
 
-  /// Shorter columns are filled up: their last rows have no such cell.
   void finish() {
-    for (auto& [name, column] : columns_) {
-      if (out_.table.columns.size() >= kMostRecordColumns) {
-        throw InputError(
-            fmt::format("{} columns; at most {} are read", columns_.size(), kMostRecordColumns));
-      }
-      ForeignColumn read{name, split_column_name(name).unit, {}};
-      if (column.is_text) {
-        read.texts = std::move(column.texts);
-      } else {
-        read.values = std::move(column.values);
-      }
-      out_.table.columns.push_back(std::move(read));
+    if (columns_.size() > kMostRecordColumns) {
+      throw InputError(
+          fmt::format("{} columns; at most {} are read", columns_.size(), kMostRecordColumns));
     }
+    auto& columns = out_.table.columns;
+    for (auto& [name, cells] : columns_) {
+      columns.push_back({name, split_column_name(name).unit, std::move(cells.values)});
+    }
+    read_texts();
+    take_unit_columns();
+    set_units(columns, units_, singles_);
   }
 
  private:
   struct Cells {
     std::vector<double> values;
-    std::vector<std::string> texts;
-    bool is_text = false;
+    std::vector<std::string> texts;  ///< of those cells that are texts
+    bool has_texts = false;          ///< that are no numbers
   };
 
   static std::string joined(const std::string& path, const std::string& key) {
@@ -140,7 +148,7 @@ class JsonTableBuilder {
       text = value.get<std::string>();
       const auto read = arm::parse_number<double>(text);
       if (read) number = *read;
-      cells.is_text = cells.is_text || (!read && !text.empty());
+      cells.has_texts = cells.has_texts || (!read && !text.empty());
     }
     cells.values.push_back(number);
     cells.texts.push_back(std::move(text));
@@ -217,6 +225,9 @@ class JsonTableBuilder {
                           is_list_of(*data, is_list);
     if (is_split) {
       add_table(names->get<std::vector<std::string>>(), *data, 0, path);
+      const auto units = std::ranges::find_if(
+          object.items(), [](const auto& entry) { return is_unit_key(entry.key()); });
+      if (units != object.items().end()) add_units(object, units.value(), path, units.key());
       return;
     }
     if (is_by_row(object)) {
@@ -226,17 +237,124 @@ class JsonTableBuilder {
       return;
     }
     for (const auto& [key, value] : object.items()) {
+      if (is_unit_key(key) && add_units(object, value, path, key)) continue;
       if (value.is_array() || value.is_object()) {
         add(value, joined(path, key), depth + 1);
+        continue;
+      }
+      singles_.push_back(joined(path, key));
+      const auto list = list_of_unit_key(key);
+      if (list && value.is_string()) {
+        units_.push_back({path, *list, value.get<std::string>(), false, singles_.back()});
       } else {
-        out_.left_out.push_back(fmt::format("{}: a single value", joined(path, key)));
+        out_.left_out.push_back(fmt::format("{}: a single value", singles_.back()));
       }
     }
+  }
+
+  /// The units under `key`, an object of texts by list or a list of texts, one a list; false for
+  /// anything else.
+  bool add_units(const Json& object, const Json& units, const std::string& path,
+                 const std::string& key) {
+    if (is_of_units(units)) {
+      add_units_of(units, path, "", joined(path, key));
+      return true;
+    }
+    if (!is_list_of(units, [](const Json& unit) { return unit.is_string() || unit.is_null(); })) {
+      return false;
+    }
+    std::vector<std::string> lists;
+    if (const auto names = object.find("columns"); names != object.end()) {
+      for (const auto& name : *names)
+        lists.push_back(name.is_string() ? name.get<std::string>() : "");
+    } else {
+      for (const auto& [name, value] : object.items()) {
+        if (value.is_array() && name != key) lists.push_back(name);
+      }
+    }
+    if (lists.size() != units.size()) {
+      throw InputError(fmt::format("{}: {} units; must be one for each of the {} lists",
+                                   arm::shown(joined(path, key)), units.size(), lists.size()));
+    }
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+      if (!units[i].is_string()) continue;
+      units_.push_back({path, lists[i], units[i].get<std::string>(), true,
+                        fmt::format("{}({})", joined(path, key), i + 1)});
+    }
+    return true;
+  }
+
+  void add_units_of(const Json& units, const std::string& path, const std::string& within,
+                    const std::string& place) {
+    for (const auto& [key, value] : units.items()) {
+      const std::string own_place = joined(place, key);
+      if (value.is_string()) {
+        units_.push_back({path, joined(within, key), value.get<std::string>(), true, own_place});
+      } else if (value.is_object()) {
+        add_units_of(value, path, joined(within, key), own_place);
+      }
+    }
+  }
+
+  /// Reads columns with texts as those of a delimited text: signs of a missing number, time stamps.
+  void read_texts() {
+    std::map<std::size_t, std::vector<std::size_t>> places_by_rows;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i].second.has_texts) continue;
+      places_by_rows[columns_[i].second.texts.size()].push_back(i);
+    }
+    auto& columns = out_.table.columns;
+    for (const auto& [rows, places] : places_by_rows) {
+      std::vector<ForeignColumn> heads;
+      for (const auto place : places)
+        heads.push_back({columns[place].name, columns[place].unit, {}});
+      ColumnBuilder builder(std::move(heads), '.');
+      for (std::size_t row = 0; row < rows; ++row) add_text_row(builder, places, row);
+      ForeignTable read = builder.finish();
+      for (std::size_t i = 0; i < read.columns.size(); ++i) {
+        columns[places[i]] = std::move(read.columns[i]);
+      }
+      std::ranges::move(read.assumptions, std::back_inserter(out_.table.assumptions));
+    }
+  }
+
+  void add_text_row(ColumnBuilder& builder, const std::vector<std::size_t>& places,
+                    std::size_t row) {
+    std::vector<std::string> numbers(places.size());
+    std::vector<string_view> cells;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const std::string& text = columns_[places[i]].second.texts[row];
+      const double value = out_.table.columns[places[i]].values[row];
+      if (text.empty() && !std::isnan(value)) numbers[i] = fmt::format("{}", value);
+      cells.push_back(text.empty() ? string_view(numbers[i]) : string_view(text));
+    }
+    try {
+      builder.add_row(cells, static_cast<int>(row) + 1);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("sample {}: {}", row + 1, error.what()));
+    }
+  }
+
+  /// Columns that repeat a unit in each sample, "hub_angle.unit", are units and no columns.
+  void take_unit_columns() {
+    std::erase_if(out_.table.columns, [&](const ForeignColumn& column) {
+      const auto point = column.name.rfind('.');
+      const std::string path = point == std::string::npos ? "" : column.name.substr(0, point);
+      const auto list = list_of_unit_key(string_view(column.name).substr(point + 1));
+      const auto& texts = column.texts;
+      const bool is_unit =
+          list && column.is_text() &&
+          std::ranges::adjacent_find(texts, std::ranges::not_equal_to()) == texts.end();
+      if (is_unit) units_.push_back({path, *list, texts.front(), false, column.name});
+      return is_unit;
+    });
   }
 
   JsonTable& out_;
   std::vector<std::pair<std::string, Cells>> columns_;
   std::map<std::string, std::size_t> places_;
+  std::vector<JsonUnit> units_;
+  std::vector<std::string> singles_;  ///< names of single values
 };
 
 /// The list of the objects that stand one a line; discarded for any other text.

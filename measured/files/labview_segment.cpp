@@ -1,9 +1,11 @@
 #include "measured/files/labview_segment.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_mapping.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/record_constants.hpp"
 #include "measured/files/time_stamp.hpp"
 #include "measured/files/universal_grid.hpp"
 
@@ -87,6 +89,7 @@ bool is_filled_from_top(const std::vector<double>& values) {
 class SegmentJoiner {
  public:
   ForeignTable join(std::vector<LabviewSegment> segments) {
+    read_x_unit(segments);
     for (auto& segment : segments) add(segment);
     finish(segments);
     return std::move(table_);
@@ -98,61 +101,86 @@ class SegmentJoiner {
                             TagValues(segment, "Time").at(0));
   }
 
+  /// The unit of X_Value, X0 and Delta_X, as X_Unit_Label tells; all numbers stay in it.
+  void read_x_unit(const std::vector<LabviewSegment>& segments) {
+    const std::string label = TagValues(segments.front(), "X_Unit_Label").at(0);
+    for (const auto& segment : segments) {
+      const TagValues labels(segment, "X_Unit_Label");
+      for (std::size_t k = 0; k < segment.channels.size(); ++k) {
+        const std::string other = labels.at(k);
+        if (other.empty() || canonical_unit(other) == canonical_unit(label)) continue;
+        throw InputError(fmt::format("X_Unit_Label = {} and {}; all channels must have one",
+                                     arm::shown(label), arm::shown(other)));
+      }
+    }
+    const TagValues dimensions(segments.front(), "X_Dimension");
+    is_frequency_ = plain_letters(dimensions.at(0)).starts_with("freq");
+    const std::string unit = canonical_unit(label);
+    if (is_frequency_) {
+      x_unit_ = unit.empty() ? "Hz" : unit;
+    } else if (const auto unit_s = conversion_of(kTime, unit)) {
+      x_unit_ = unit.empty() ? "s" : unit;
+      x_unit_s_ = *unit_s;
+    } else {
+      say(fmt::format("X_Unit_Label = {} is no unit of time; s assumed", arm::shown(label)));
+    }
+  }
+
   void set_x(LabviewSegment& segment) {
     const TagValues starts(segment, "X0");
     const TagValues periods(segment, "Delta_X");
     const std::size_t leading = leading_channel(segment);
-    period_s_ = periods.number_at(leading).value_or(0.0);
+    period_ = periods.number_at(leading).value_or(0.0);
     const std::size_t rows = segment.lines.size();
     auto& shared = segment.channels[0].x;
     const bool has_x = std::ranges::any_of(shared, is_number);
     if (!has_x) {
-      if (!(period_s_ > 0.0)) {
+      if (!(period_ > 0.0)) {
         throw InputError(
             "no X_Value and no Delta_X above 0 to tell the times; export X_Value, or write "
             "Delta_X");
       }
-      shared = grid_points({starts.number_at(leading).value_or(0.0), period_s_}, rows);
+      shared = grid_points({starts.number_at(leading).value_or(0.0), period_}, rows);
       period_is_used_ = true;
-    } else if (!(period_s_ > 0.0) && rows > 1) {
-      period_s_ = shared[1] - shared[0];
+    } else if (!(period_ > 0.0) && rows > 1) {
+      period_ = shared[1] - shared[0];
     }
     for (std::size_t k = 1; k < segment.channels.size(); ++k) {
       auto& channel = segment.channels[k];
       if (!channel.x.empty() && !std::ranges::any_of(channel.x, is_number)) channel.x.clear();
-      const double own_s = periods.number_at(k).value_or(period_s_);
+      const double own_period = periods.number_at(k).value_or(period_);
       constexpr double kAlike = 1e-6;
-      const bool is_other = std::abs(own_s - period_s_) > kAlike * period_s_;
+      const bool is_other = std::abs(own_period - period_) > kAlike * period_;
       const bool is_empty = !std::ranges::any_of(channel.values, is_number);
-      if (!channel.x.empty() || !is_other || is_empty || !(own_s > 0.0)) continue;
+      if (!channel.x.empty() || !is_other || is_empty || !(own_period > 0.0)) continue;
       if (!is_number(channel.values.back()) && is_filled_from_top(channel.values)) {
-        channel.x = grid_points({starts.number_at(k).value_or(0.0), own_s}, rows);
+        channel.x = grid_points({starts.number_at(k).value_or(0.0), own_period}, rows);
       } else {
-        say(fmt::format("Delta_X of {} is {} s; its samples are taken at the times of their rows",
-                        arm::shown(channel.name), own_s));
+        say(fmt::format("Delta_X of {} is {} {}; its samples are taken at the times of their rows",
+                        arm::shown(channel.name), own_period, x_unit_));
       }
     }
   }
 
-  /// The seconds to add to the times of a segment.
+  /// What to add to the times of a segment.
   double offset_of(const LabviewSegment& segment) {
     const auto& x = segment.channels[0].x;
     const auto start = start_of(segment);
     if (!is_begun_) first_start_ = start;
     if (!is_begun_ || !start || !first_start_ || x.empty()) return 0.0;
     const std::vector<std::optional<TimeStamp>> stamps = {first_start_, start};
-    const double since_s = seconds_since_first(stamps).back();
-    const bool is_in_x = std::abs(x.front() - first_x_ - since_s) < period_s_;
-    const double begin_s = x.front() + since_s;
-    if (std::isnan(since_s) || is_in_x || begin_s <= last_s_) return 0.0;
+    const double since = seconds_since_first(stamps).back() / x_unit_s_;
+    const bool is_in_x = std::abs(x.front() - first_x_ - since) < period_;
+    const double begin = x.front() + since;
+    if (std::isnan(since) || is_in_x || begin <= last_) return 0.0;
     // Segments that follow without a pause, but for the clock's rounding.
-    const double next_s = last_s_ + period_s_;
-    return std::abs(begin_s - next_s) < 0.5 * period_s_ ? next_s - x.front() : since_s;
+    const double next = last_ + period_;
+    return std::abs(begin - next) < 0.5 * period_ ? next - x.front() : since;
   }
 
   void add(LabviewSegment& segment) {
     set_x(segment);
-    const double offset_s = offset_of(segment);
+    const double offset = offset_of(segment);
     const auto& shared = segment.channels[0].x;
     const bool is_shared = std::ranges::all_of(segment.channels, [&](const auto& channel) {
       return &channel == &segment.channels[0] || channel.x.empty() || is_alike(channel.x, shared);
@@ -160,18 +188,18 @@ class SegmentJoiner {
     const std::vector<std::size_t>& places = places_of(segment);
     if (is_shared) {
       for (std::size_t row = 0; row < segment.lines.size(); ++row) {
-        begin_row(shared[row] + offset_s, segment.lines[row]);
+        begin_row(shared[row] + offset, segment.lines[row]);
         for (std::size_t k = 0; k < places.size(); ++k) {
           table_.columns[places[k]].values.back() = segment.channels[k].values[row];
         }
       }
     } else {
-      add_merged(segment, places, offset_s);
+      add_merged(segment, places, offset);
     }
     if (!is_begun_) first_x_ = shared.empty() ? 0.0 : shared.front();
     is_begun_ = true;
-    for (const double time_s : table_.columns[0].values) {
-      if (is_number(time_s)) last_s_ = time_s;
+    for (const double time : table_.columns[0].values) {
+      if (is_number(time)) last_ = time;
     }
   }
 
@@ -184,7 +212,7 @@ class SegmentJoiner {
 
   /// Rows at the times of all channels, in order, with empty cells where a channel has no sample.
   void add_merged(const LabviewSegment& segment, const std::vector<std::size_t>& places,
-                  double offset_s) {
+                  double offset) {
     say("channels have times of their own; rows are at the times of all");
     struct Sample {
       double x;
@@ -206,9 +234,9 @@ class SegmentJoiner {
     constexpr double kSameTime_periods = 1e-3;
     double last = 0.0;
     for (const Sample& sample : samples) {
-      const bool is_same = sample.x - last <= kSameTime_periods * period_s_;
+      const bool is_same = sample.x - last <= kSameTime_periods * period_;
       if (&sample == &samples.front() || !is_same) {
-        begin_row(sample.x + offset_s, segment.lines[sample.row]);
+        begin_row(sample.x + offset, segment.lines[sample.row]);
         last = sample.x;
       }
       table_.columns[places[sample.channel]].values.back() =
@@ -216,8 +244,8 @@ class SegmentJoiner {
     }
   }
 
-  void begin_row(double time_s, int line) {
-    table_.columns[0].values.push_back(time_s);
+  void begin_row(double time, int line) {
+    table_.columns[0].values.push_back(time);
     for (std::size_t i = 1; i < table_.columns.size(); ++i) {
       table_.columns[i].values.push_back(kNoSample);
     }
@@ -229,10 +257,7 @@ class SegmentJoiner {
     if (segment.names == names_) return places_;
     names_ = segment.names;
     if (table_.columns.empty()) {
-      const TagValues dimensions(segment, "X_Dimension");
-      const bool is_frequency = plain_letters(dimensions.at(0)).starts_with("freq");
-      table_.columns.push_back(is_frequency ? ForeignColumn{"Frequency", "Hz", {}}
-                                            : ForeignColumn{"X_Value", "s", {}});
+      table_.columns.push_back({is_frequency_ ? "Frequency" : "X_Value", x_unit_, {}});
     }
     std::vector<std::size_t>& places = places_;
     places.clear();
@@ -258,7 +283,7 @@ class SegmentJoiner {
                                           segments.size() == 1 ? "" : "s"));
     if (!period_is_used_) return;
     const auto told = TagValues(segments.front(), "Samples").number_at(0);
-    say(fmt::format("no X_Value; times are those of X0 and Delta_X, {} s", period_s_));
+    say(fmt::format("no X_Value; times are those of X0 and Delta_X, {} {}", period_, x_unit_));
     if (segments.size() == 1 && told && *told > 1.0 && *told < static_cast<double>(rows)) {
       say(
           fmt::format("the head tells {} samples, {} rows follow; they are taken as one stretch "
@@ -270,15 +295,15 @@ class SegmentJoiner {
 
   /// A period of few digits may stand for a whole number of samples a second.
   void say_rounding() {
-    const double rate_Hz = 1.0 / period_s_;
+    const double rate_Hz = 1.0 / (period_ * x_unit_s_);
     constexpr double kWhole = 1e-6;
     constexpr double kDigits = 1e6;  // Delta_X has six behind the point
     if (std::abs(rate_Hz - std::round(rate_Hz)) < kWhole * rate_Hz) return;
     for (const double rate : {std::exp2(std::round(std::log2(rate_Hz))), std::round(rate_Hz)}) {
-      if (std::round(kDigits / rate) != std::round(kDigits * period_s_) || period_s_ < 1e-4)
-        continue;
-      say(fmt::format("Delta_X = {} s may be a rounded 1/{} s; if so, state --period {:.9g}",
-                      period_s_, rate, 1.0 / rate));
+      const double told = 1.0 / (rate * x_unit_s_);
+      if (std::round(kDigits * told) != std::round(kDigits * period_) || period_ < 1e-4) continue;
+      say(fmt::format("Delta_X = {} {} may be a rounded 1/{} s; if so, state --period {:.9g}",
+                      period_, x_unit_, rate, 1.0 / rate));
       return;
     }
   }
@@ -291,11 +316,14 @@ class SegmentJoiner {
   ForeignTable table_;
   std::vector<std::string> names_;   ///< of the segment added last,
   std::vector<std::size_t> places_;  ///< and the columns of its channels
-  double period_s_ = 0.0;
+  bool is_frequency_ = false;        ///< X, in
+  std::string x_unit_ = "s";         ///< this unit
+  double x_unit_s_ = 1.0;            ///< of so many s
+  double period_ = 0.0;
   bool period_is_used_ = false;
   bool is_begun_ = false;
   double first_x_ = 0.0;
-  double last_s_ = 0.0;
+  double last_ = 0.0;
   std::optional<TimeStamp> first_start_;
 };
 

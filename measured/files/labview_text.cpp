@@ -157,13 +157,11 @@ class SegmentReader {
       const string_view cell = place < cells_.size() ? cells_[place] : string_view();
       if (segment.cell_kinds[i] == LabviewCell::other) continue;
       double value = std::numeric_limits<double>::quiet_NaN();
-      if (!cell.empty()) {
-        const auto number = number_in(cell, separator_);
-        if (!number) {
-          throw InputError(fmt::format("column {} = {}: must be a number",
-                                       arm::shown(segment.names[i]), arm::shown(cell)));
-        }
+      if (const auto number = number_in(cell, separator_)) {
         value = *number;
+      } else if (!is_missing_number(cell)) {
+        throw InputError(fmt::format("column {} = {}: must be a number",
+                                     arm::shown(segment.names[i]), arm::shown(cell)));
       }
       segment.cells_of(i).push_back(value);
     }

@@ -9,6 +9,9 @@ namespace flexarm::measured {
 /// A number that a record does not have.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Instruments write 9.9E37 and 9.91E37 (SCPI) and greater numbers for what they could not measure.
+inline constexpr double kOverRange = 9.9e37;
+
 /// Standard names beside those of sensors.
 inline constexpr std::string_view kTime = "time";
 inline constexpr std::string_view kTorque = "torque";

@@ -43,8 +43,8 @@ constexpr std::array<string_view, 22> kPeriodNames = {"sampleinterval",
 constexpr std::array<string_view, 8> kRateNames = {
     "samplerate", "samplingrate", "samplefrequency", "samplingfrequency",
     "fs",         "abtastrate",   "abtastfrequenz",  "frequenceechantillonnage"};
-constexpr std::array<string_view, 6> kStartNames = {"start",   "x0",    "t0",
-                                                    "xorigin", "xzero", "xstart"};
+constexpr std::array<string_view, 7> kStartNames = {"start",   "hoffset", "x0",    "t0",
+                                                    "xorigin", "xzero",   "xstart"};
 
 bool is_one_of(std::span<const string_view> names, string_view words) {
   return std::ranges::count(names, words) > 0;
@@ -98,10 +98,15 @@ std::optional<double> seconds_in(const std::string& unit) {
 }
 
 std::optional<double> hertz_in(const std::string& unit) {
-  constexpr double kThousand = 1e3;
-  if (unit.empty() || unit == "Hz" || unit == "Sa/s" || unit == "S/s") return 1.0;
-  if (unit == "kHz" || unit == "kSa/s" || unit == "kS/s") return kThousand;
-  if (unit == "MHz" || unit == "MSa/s" || unit == "MS/s") return kThousand * kThousand;
+  if (unit.empty()) return 1.0;
+  constexpr std::array<std::pair<string_view, double>, 4> kPrefixes = {
+      {{"", 1.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}}};
+  constexpr std::array<string_view, 9> kUnits = {
+      "Hz", "Sa/s", "S/s", "samples/s", "Samples/s", "sample/s", "Sps", "sps", "SPS"};
+  for (const auto& [prefix, factor] : kPrefixes) {
+    if (!unit.starts_with(prefix)) continue;
+    if (std::ranges::count(kUnits, string_view(unit).substr(prefix.size())) > 0) return factor;
+  }
   return std::nullopt;
 }
 

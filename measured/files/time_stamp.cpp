@@ -239,6 +239,36 @@ bool read_clock(string_view text, TimeStamp& stamp) {
   return true;
 }
 
+/// "2024-03-01T12:00:00.002Z" of "20240301T120000.002Z"; empty for any other text.
+std::string long_form(string_view text) {
+  constexpr std::size_t kDate = 8;
+  constexpr std::size_t kClock = 15;
+  if (text.size() < kClock || text[kDate] != 'T') return "";
+  const auto is_digits = [](string_view part) { return std::ranges::all_of(part, is_of_number); };
+  if (!is_digits(text.substr(0, kDate)) || !is_digits(text.substr(kDate + 1, kClock - kDate - 1))) {
+    return "";
+  }
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (i == 4 || i == 6) out += '-';
+    if (i == 11 || i == 13) out += ':';
+    out += text[i];
+  }
+  return out;
+}
+
+/// The days in "3 days" or "1 day"; empty for any other text.
+std::optional<std::int64_t> days_in(string_view text) {
+  StampText rest(text);
+  const string_view digits = rest.digits();
+  constexpr std::size_t kLongest = 5;
+  if (digits.empty() || digits.size() > kLongest) return std::nullopt;
+  rest.pass_blanks();
+  const string_view word = rest.letters();
+  if ((word != "day" && word != "days") || !rest.at_end()) return std::nullopt;
+  return whole(digits);
+}
+
 /// Stamps as nanoseconds, with the days that `days` reads of them.
 template <class ReadDays>
 std::vector<std::optional<std::int64_t>> nanoseconds_of(
@@ -288,6 +318,8 @@ Span span_of(const std::vector<std::optional<std::int64_t>>& times_ns) {
 std::optional<TimeStamp> parse_time_stamp(string_view cell) {
   string_view text = trimmed(cell);
   if (text.empty() || text.size() > kLongestStamp) return std::nullopt;
+  const std::string long_text = long_form(text);
+  if (!long_text.empty()) text = long_text;
   TimeStamp stamp;
   const std::size_t colon = text.find(':');
   if (colon == string_view::npos) {
@@ -298,8 +330,10 @@ std::optional<TimeStamp> parse_time_stamp(string_view cell) {
   while (begin > 0 && is_of_number(text[begin - 1])) --begin;
   string_view date = trimmed(text.substr(0, begin));
   if (date.ends_with('T') || date.ends_with('_') || date.ends_with(',')) date.remove_suffix(1);
-  if (!date.empty() && !read_date(trimmed(date), stamp)) return std::nullopt;
+  const auto days = days_in(trimmed(date));
+  if (!days && !date.empty() && !read_date(trimmed(date), stamp)) return std::nullopt;
   if (!read_clock(text.substr(begin), stamp)) return std::nullopt;
+  if (days) *stamp.clock_ns += *days * kDay_ns;
   return stamp;
 }
 

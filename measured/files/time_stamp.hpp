@@ -14,14 +14,16 @@ struct TimeStamp {
   /// the cell leaves no choice, empty for a date that there is not. Both empty without a date.
   std::optional<std::int64_t> day_first;
   std::optional<std::int64_t> month_first;
-  /// Since midnight, less the offset of the time zone where one is told; rounded to 1 ns.
+  /// Since midnight, or since the start where days stand in front of it, less the offset of the
+  /// time zone where one is told; rounded to 1 ns.
   std::optional<std::int64_t> clock_ns;
   bool has_hours = true;  ///< false for minutes and seconds alone, 00:02.5
 
   bool has_date() const { return day_first || month_first; }
 };
 
-/// Reads `12:00:00.002`, `2024-03-01T12:00:00.002Z`, `2024/03/01 12:00:00,002`,
+/// Reads `12:00:00.002`, `2024-03-01T12:00:00.002Z`, `20240301T120000.002Z`,
+/// `0 days 00:00:00.002` (time that passed), `2024/03/01 12:00:00,002`,
 /// `01.03.2024 12:00:00`, `03/01/2024 12:00:00.002 PM`, `01-Mar-2024 12:00:00`, `02:31.5` (minutes
 /// and seconds), `12:00:00:002`, and dates alone; time zones Z, UTC, GMT, +01:00, +0100. Empty for
 /// any other text, a number among them.

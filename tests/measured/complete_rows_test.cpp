@@ -52,6 +52,29 @@ TEST(CompleteRows, ColumnsThatAreNotUsedDoNotMatter) {
   EXPECT_EQ(keep(table).rows.size(), 3U);
 }
 
+TEST(CompleteRows, OverRangeIsNoNumber) {
+  auto table = parse_foreign_table("t,u,y\n0,1,2\n1,9.9E+37,3\n2,1,-9.99999E37\n3,1,4\n", "log");
+  const auto kept = keep(table);
+  EXPECT_THAT(kept.rows, ElementsAre(0, 3));
+  EXPECT_THAT(kept.notes, testing::Contains(HasSubstr("1 cell of column u with 9.9e+37 or more")));
+}
+
+std::vector<std::string> warnings_of(const std::string& text) {
+  auto table = parse_foreign_table(text, "log");
+  return keep(table).warnings;
+}
+
+TEST(CompleteRows, SignsOfMissingSamplesFarOutsideAreDoubted) {
+  EXPECT_THAT(warnings_of("t,u,y\n0,1,2\n1,-9999,3\n2,2,4\n3,-9999,5\n"),
+              ElementsAre("torque: 2 cells of column u are -9999, the others lie from 1 to 2; if "
+                          "-9999 stands for a missing sample, empty these cells"));
+  EXPECT_THAT(warnings_of("t,u,y\n0,1,2\n1,1,-32768\n2,1,4\n"),
+              ElementsAre(HasSubstr("hub_angle: 1 cell of column y is -32768")));
+  // Counts, and a column of one number.
+  EXPECT_THAT(warnings_of("t,u,y\n0,1,0\n1,1,20000\n2,1,32767\n"), testing::IsEmpty());
+  EXPECT_THAT(warnings_of("t,u,y\n0,999,0\n1,999,1\n2,999,0\n"), testing::IsEmpty());
+}
+
 TEST(CompleteRows, ATorqueBeforeTheFirstCompleteRowIsKnown) {
   auto at_rest = parse_foreign_table("t,u,y\n0,0,\n1,1,3\n2,1,4\n3,1,4\n", "log");
   EXPECT_FALSE(keep(at_rest).is_driven_before);
@@ -81,6 +104,21 @@ TEST(CompleteRows, AColumnOfItsOwnRateAsksForWhatStandsBetween) {
   EXPECT_THAT(line.columns[1].values, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
   auto rows = parse_foreign_table(sparse_log(9), "log");
   EXPECT_THAT(keep(rows, {{"torque", Between::rows}}).rows, ElementsAre(0, 4, 8));
+}
+
+TEST(CompleteRows, TheEvenGridOfAllRowsIsKept) {
+  const auto period_of = [](const char* text, const OwnRates& rates = {}) {
+    auto table = parse_foreign_table(text, "log");
+    return keep(table, rates).period;
+  };
+  const char* one_of_three = "t,u,y\n0,1,2\n2,1,2\n4,,2\n6,1,2\n8,1,2\n10,,2\n12,1,2\n";
+  EXPECT_EQ(period_of(one_of_three), 2.0);
+  EXPECT_EQ(period_of(one_of_three, {{"torque", Between::rows}}), std::nullopt);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n4,1,2\n"), 2.0);
+  // Other rows are of something else, or the clock is uneven.
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n1,,\n2,1,3\n3,,\n4,1,\n5,,\n6,1,5\n"), 2.0);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n7,1,2\n8,1,2\n"), std::nullopt);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,1,2\n4,1,2\n"), std::nullopt);
 }
 
 /// All columns have their numbers in the same rows: other rows are of something else.

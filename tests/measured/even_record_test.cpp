@@ -211,5 +211,26 @@ TEST(EvenRecord, ARecordWithoutAStretchIsRefused) {
   EXPECT_THROW(make_even(record_at({0.0, 0.01, 0.025, 0.5, 0.52})), arm::InputError);
 }
 
+/// Two of three samples: their times alone might be rounded ones of 1.5 periods.
+TEST(EvenRecord, AKnownGridIsFilled) {
+  TimeRecord record =
+      record_at(times_of(200, [](int k) { return (k / 2 * 3 + k % 2) * kPeriod_s; }));
+  record.torque_N_m.assign(record.time_s.size(), 1.0);
+  EvenOptions options;
+  options.period_s = kPeriod_s;
+  const EvenRecords even = make_even(record, options);
+  ASSERT_EQ(even.stretches.size(), 1U);
+  const TimeRecord& filled = even.stretches[0];
+  ASSERT_EQ(filled.time_s.size(), 299U);
+  for (std::size_t k = 0; k < filled.time_s.size(); ++k) {
+    EXPECT_NEAR(filled.time_s[k], kPeriod_s * static_cast<double>(k), 1e-9);
+    EXPECT_NEAR(filled.torque_N_m[k], 1.0, 1e-9);
+  }
+  EXPECT_LT(angle_error(filled), 5e-3);
+  EXPECT_THAT(even.notes, testing::ElementsAre(HasSubstr("99 missing samples in 99 gaps filled")));
+  options.longest_filled_gap = 0;
+  EXPECT_THROW(make_even(record, options), arm::InputError);
+}
+
 }  // namespace
 }  // namespace flexarm::measured

@@ -283,11 +283,30 @@ TEST(ColumnGuess, TheStandardNameGoesFirstAndTheUnitMustFit) {
   EXPECT_EQ(guess.mappings, (ColumnMappings{{"hub_angle", {"hub_angle", "rad", 1.0}}}));
 }
 
-/// No word is two quantities, and each is as `plain_letters` has it.
+TEST(ColumnGuess, APositionIsTheHubAngleInAUnitOfAnAngleAlone) {
+  const auto guess_of = [](const ColumnLabel& position) {
+    return guess_columns(std::vector<ColumnLabel>{{"time", "s"}, {"torque", "N m"}, position}, {});
+  };
+  EXPECT_EQ(guess_of({"position [deg]", "deg"}).mappings.at("hub_angle").name, "position [deg]");
+  EXPECT_EQ(guess_of({"joint.position(1)", "rad"}).mappings.at("hub_angle").unit, "rad");
+  for (const char* unit : {"", "mm"}) {
+    const auto guess = guess_of({"position", unit});
+    EXPECT_FALSE(guess.mappings.contains("hub_angle"));
+    ASSERT_EQ(guess.questions.size(), 1U);
+    EXPECT_THAT(guess.questions[0].sentence, HasSubstr("--column 'hub_angle=position:rad'"));
+  }
+  // Beside a column that says what it is, it is nothing.
+  const auto beside =
+      guess_columns(std::vector<ColumnLabel>{{"theta", "rad"}, {"position [rad]", "rad"}}, {});
+  EXPECT_EQ(beside.mappings.at("hub_angle").name, "theta");
+}
+
+/// No word is two quantities, and each is as `plain_letters` has it; one that needs a unit is asked
+/// about without.
 TEST(ColumnWords, AreSpelledPlainlyAndStandOnce) {
   std::vector<std::string> all;
-  for (const auto& [quantity, words] : quantity_words()) {
-    all.insert(all.end(), words.begin(), words.end());
+  for (const auto& [quantity, words, needs_unit] : quantity_words()) {
+    if (!needs_unit) all.insert(all.end(), words.begin(), words.end());
   }
   for (const auto& open : open_words()) all.insert(all.end(), open.words.begin(), open.words.end());
   for (const auto& word : all) {

@@ -188,6 +188,8 @@ TEST(ColumnName, HeadersAreTakenApart) {
   };
   expect("Time (ms)", "Time", "ms");
   expect("strain@0.05 [1]", "strain@0.05", "1");
+  expect("strain(1)", "strain(1)", "");
+  expect("effort[2]", "effort[2]", "");
   expect("t_s", "t", "s");
   expect("t/s", "t", "s");
   expect("hub1_deg", "hub1", "deg");
@@ -272,6 +274,26 @@ TEST(ForeignTable, AnotherNameForAColumnIsShownWithoutControlCharacters) {
   } catch (const arm::InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("did you mean time\\xc2\\x9b?"));
   }
+}
+
+TEST(ForeignTable, SignsOfAMissingNumberMayBeFirst) {
+  for (const char* sign :
+       {"#NUM!", "None", "-1.#IND00", "1.#QNAN0", "#DIV/0!", "<NA>", "NaT", "k.A."}) {
+    const auto table = parse_foreign_table(
+        std::string("t;u;y\n0;1;") + sign + "\n1;1;3\n2;1;" + sign + "\n", "log");
+    ASSERT_FALSE(table.columns[2].is_text()) << sign;
+    EXPECT_TRUE(std::isnan(table.columns[2].values[0])) << sign;
+    EXPECT_EQ(table.columns[2].values[1], 3.0) << sign;
+    EXPECT_TRUE(stray_texts(table).empty());
+  }
+}
+
+TEST(ForeignTable, ATextAmongNumbersIsNamed) {
+  const auto table =
+      parse_foreign_table("t,u,y,mode\n0,1,fault,up\n1,1,3,3\n2,1,fault,down\n", "log");
+  EXPECT_THAT(stray_texts(table),
+              testing::ElementsAre("y = fault in line 2: no number, as its other cells are; write "
+                                   "the number, or leave the cell empty for a missing sample"));
 }
 
 }  // namespace

@@ -165,5 +165,56 @@ TEST(InstrumentHead, ExponentsOfFortranAreNumbers) {
   EXPECT_THAT(table.columns[2].values, ElementsAre(-1.0, 2.5));
 }
 
+TEST(InstrumentHead, SettingsOfTwoChannelsAreNoRows) {
+  const auto tektronix = parse_foreign_table(
+      "Horizontal Scale,0.04,0.04\nSample Interval,2e-3,2e-3\nRecord Length,3,3\nVertical "
+      "Units,V,V\n"
+      "Vertical Offset,0,0\nVertical Scale,1,0.5\n,,\nLabel,,\nTIME,CH1,CH2\n0.000,0.1,0.2\n"
+      "0.002,0.3,0.4\n0.004,0.5,0.6\n",
+      "tek.csv");
+  EXPECT_THAT(column(tektronix, "TIME").values, ElementsAre(0.0, 0.002, 0.004));
+  EXPECT_THAT(column(tektronix, "CH2").values, ElementsAre(0.2, 0.4, 0.6));
+  const auto adjacent = parse_foreign_table(
+      "Vertical Offset,0,0\nVertical Scale,1,0.5\nTIME,CH1,CH2\n0.000,0.1,0.2\n0.002,0.3,0.4\n",
+      "a");
+  EXPECT_THAT(column(adjacent, "CH1").values, ElementsAre(0.1, 0.3));
+  const auto instek = parse_foreign_table(
+      "Format,1.0B\nMemory Length,400,Memory Length,400,\nTrigger Level,0,Trigger Level,0,\n"
+      "Vertical Units,V,Vertical Units,V,\nSampling Period,2e-3,Sampling Period,2e-3,\n"
+      "Waveform Data,,Waveform Data,,\n0.000,0.1,0.000,0.2,\n0.002,0.3,0.002,0.4,\n",
+      "gw.csv");
+  EXPECT_THAT(column(instek, "#2").values, ElementsAre(0.1, 0.3));
+  EXPECT_THAT(column(instek, "#4").values, ElementsAre(0.2, 0.4));
+  const auto yokogawa = parse_foreign_table(
+      "\"BlockNumber \",1,1\n\"TraceName   \",\"CH1\",\"CH2\"\n\"HResolution "
+      "\",2e-3,2e-3\n\"HOffset\",-0.1,-0.1\n"
+      "\"Date\",\"2024/03/01\",\"2024/03/01\"\n\"Time\",\"12:00:00.00\",\"12:00:00.00\"\n"
+      ",0.1,0.2\n,0.3,0.4\n,0.5,0.6\n",
+      "dl.csv");
+  EXPECT_THAT(column(yokogawa, "#2").values, ElementsAre(0.1, 0.3, 0.5));
+  EXPECT_THAT(column(yokogawa, "time [s]").values,
+              ElementsAre(DoubleEq(-0.1), DoubleEq(-0.098), DoubleEq(-0.096)));
+}
+
+/// Rows in front of the first sound one are rows, and no sample is lost without a word.
+TEST(InstrumentHead, ARowWithATextInItIsNoHead) {
+  std::string rows;
+  for (int k = 2; k < 40; ++k) rows += fmt::format("{},{},{}\n", k, k, k);
+  const auto faulty = parse_foreign_table("t,u,y\n0,1,fault\n\n1,1,fault\n" + rows, "log");
+  EXPECT_EQ(faulty.columns[0].name, "t");
+  EXPECT_EQ(faulty.columns[0].values.size(), 40U);
+  EXPECT_EQ(faulty.columns[2].stray, "fault");
+  const auto noted = parse_foreign_table("note,t,u\nbegin,0,1\n,1,2\n,2,3\n,3,4\n", "log");
+  EXPECT_THAT(column(noted, "t").values, ElementsAre(0.0, 1.0, 2.0, 3.0));
+}
+
+TEST(InstrumentHead, ARateMayBeInSamplesPerSecond) {
+  for (const char* rate : {"500,Samples/s", "0.5,kSps", "500 S/s", "0.5,kHz"}) {
+    const auto table =
+        parse_foreign_table(fmt::format("Sample Rate,{}\nu,y\n1,2\n2,3\n3,4\n", rate), "log");
+    EXPECT_THAT(column(table, "time [s]").values, ElementsAre(0.0, 0.002, 0.004)) << rate;
+  }
+}
+
 }  // namespace
 }  // namespace flexarm::measured

@@ -144,6 +144,31 @@ TEST(LabviewText, MoreRowsThanTheHeadTellsAndARoundedPeriodAreSaid) {
   EXPECT_THAT(table.assumptions, Contains(HasSubstr("may be a rounded 1/1024 s")));
 }
 
+/// The head of a segment whose X is in `unit`.
+std::string head_in(const std::string& unit, const std::string& clock, const std::string& delta) {
+  return fmt::format("X_Unit_Label\t{0}\t{0}\t\n", unit) + segment_head(clock, delta);
+}
+
+TEST(LabviewText, XIsInTheUnitOfItsLabel) {
+  const auto table = parse_foreign_table(
+      file_head("No") + head_in("ms", "12:00:01.0", "0.100000") + kNames + "\t0\t1\n\t0\t2\n" +
+          head_in("ms", "12:00:02.0", "0.100000") + kNames + "\t0\t3\n\t0\t4\n",
+      "a.lvm");
+  EXPECT_EQ(table.columns[0].unit, "ms");
+  EXPECT_THAT(values(table, "X_Value"),
+              ElementsAre(0.0, DoubleEq(0.1), DoubleEq(1000.0), DoubleEq(1000.1)));
+  EXPECT_THAT(table.assumptions, Contains(HasSubstr("those of X0 and Delta_X, 0.1 ms")));
+  const auto of_label = [](const std::string& label) {
+    return parse_foreign_table(
+        file_head("One") + head_in(label, "12:00:01.0", "0.25") + kNames + "0\t0\t1\n0.25\t0\t2\n",
+        "a.lvm");
+  };
+  EXPECT_EQ(of_label("Seconds").columns[0].unit, "s");
+  const auto unknown = of_label("ticks");
+  EXPECT_EQ(unknown.columns[0].unit, "s");
+  EXPECT_THAT(unknown.assumptions, Contains("X_Unit_Label = ticks is no unit of time; s assumed"));
+}
+
 TEST(LabviewText, WhatCannotBeReadIsOneLine) {
   const auto refusal = [](const std::string& text) -> std::string {
     try {

@@ -12,6 +12,7 @@
 #include "report/figures/figure_files.hpp"
 #include "report/json/diagnosis_document.hpp"
 #include "report/tables/diagnosis_tables.hpp"
+#include "report/tables/table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -129,7 +130,9 @@ void add_estimates(py::module_& module) {
                     "Posterior probability, `confidence` of the JSON.")
       .def_readonly("class_probability", &Cause::class_confidence,
                     "Of this effect or one that is indistinguishable from it.")
-      .def_readonly("explained_share", &Cause::share, "Of the excess residual without it, 0 to 1.")
+      .def_property_readonly(
+          "explained_share", [](const Cause& self) { return report::explained_share(self.share); },
+          "Of the excess residual without it, 0 to 1.")
       .def_readonly("confusable_with", &Cause::confusable_with,
                     "Effects that these data do not distinguish from it, a list.")
       .def_readonly("evidence", &Cause::evidence, "Sentences, a list.")

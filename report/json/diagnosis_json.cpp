@@ -2,6 +2,7 @@
 
 #include "report/json/plan_json.hpp"
 #include "report/json/symptom_json.hpp"
+#include "report/tables/table.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -33,7 +34,7 @@ Json cause_json(const diagnose::Cause& cause) {
   json["parameters"] = parameters;
   json["confidence"] = cause.confidence;
   json["class_confidence"] = cause.class_confidence;
-  json["explained_share"] = cause.share;
+  json["explained_share"] = explained_share(cause.share);
   json["confusable_with"] = cause.confusable_with;
   json["evidence"] = cause.evidence;
   json["evidence_against"] = cause.refuted_by;
@@ -68,10 +69,14 @@ Json empirical_law_json(const std::optional<diagnose::EmpiricalLaw>& law) {
       made["std_error"] = mean.std_error_N_m;
     }
   }
-  return {{"angle", table.angle_rad},          {"velocity", table.velocity_rad_per_s},
-          {"torque", table.torque_N_m},        {"std_error", law->std_error_N_m},
-          {"std_errors", law->std_errors_N_m}, {"residual_means", std::move(means)},
-          {"explained_share", law->share},     {"before", law->error_before},
+  return {{"angle", table.angle_rad},
+          {"velocity", table.velocity_rad_per_s},
+          {"torque", table.torque_N_m},
+          {"std_error", law->std_error_N_m},
+          {"std_errors", law->std_errors_N_m},
+          {"residual_means", std::move(means)},
+          {"explained_share", explained_share(law->share)},
+          {"before", law->error_before},
           {"after", law->error_after}};
 }
 
@@ -83,7 +88,7 @@ Json missing_force_json(const std::optional<diagnose::MissingForce>& force) {
     json["ports"].push_back({{"port", to_string(port.port)},
                              {"sensors", port.sensors},
                              {"place", port.place},
-                             {"explained_share", port.share},
+                             {"explained_share", explained_share(port.share)},
                              {"std_error", port.std_error},
                              {"distance_std_error", port.distance_std_error},
                              {"stated", i < force->stated}});
@@ -145,7 +150,7 @@ Json search_json(const diagnose::Diagnosis& diagnosis) {
                {"ruled_out", Json::array()},
                {"excluded", diagnosis.excluded}};
   for (const auto& [effect, share] : diagnosis.ruled_out) {
-    json["ruled_out"].push_back({{"effect", effect}, {"explained_share", share}});
+    json["ruled_out"].push_back({{"effect", effect}, {"explained_share", explained_share(share)}});
   }
   if (diagnosis.time_limit_s) json["time_limit"] = *diagnosis.time_limit_s;
   if (const auto& end = diagnosis.search_end) {
@@ -220,7 +225,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
   for (const auto& miss : diagnosis.near_misses) {
     candidates.push_back({{"effects", miss.effects},
                           {"probability", miss.probability},
-                          {"explained_share", miss.share},
+                          {"explained_share", explained_share(miss.share)},
                           {"delta_bic", miss.information},
                           {"nrmse", miss.error}});
   }

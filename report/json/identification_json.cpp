@@ -300,7 +300,9 @@ std::string_view state_of(const measured::Identification& identification) {
   if (std::ranges::any_of(fits, has([](const auto& fit) { return !fit.unphysical.empty(); }))) {
     return "unphysical";
   }
-  return identification.readings.empty() ? "nothing identified" : "identified";
+  const bool is_empty = std::ranges::all_of(
+      identification.readings, [](const auto& reading) { return reading.table.empty(); });
+  return is_empty ? "nothing identified" : "identified";
 }
 
 }  // namespace

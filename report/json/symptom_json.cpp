@@ -1,5 +1,7 @@
 #include "report/json/symptom_json.hpp"
 
+#include "report/tables/table.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace flexarm::report {
@@ -16,7 +18,7 @@ Json hub_term_json(const diagnose::HubTorqueTerm& term, bool accepted) {
                {"unit", term.unit}};
   if (term.kind == diagnose::HubTorqueKind::ripple) json["cycles_per_rev"] = term.at;
   if (term.kind == diagnose::HubTorqueKind::saturation) json["threshold_N_m"] = term.at;
-  json["explained_share"] = term.share;
+  json["explained_share"] = explained_share(term.share);
   json["p_value"] = term.probability;
   return json;
 }

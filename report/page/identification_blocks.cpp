@@ -8,6 +8,7 @@
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
 #include "report/page/root_map.hpp"
+#include "report/tables/best_roots.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/words.hpp"
 
@@ -138,35 +139,20 @@ std::string root_name(const compare::IdentifiedRoot& root) {
          (root.order ? fmt::format(" {}", *root.order) : "");
 }
 
-/// The readings to show: of the fits where there are any, else of the responses and tables.
-bool is_shown(const measured::ModalReading& reading, bool has_fit) {
-  using enum measured::Method;
-  return has_fit ? reading.method == rational_fit
-                 : reading.method == response || reading.method == table;
-}
-
-bool has_fit(const IdentifiedRuns& runs, const compare::IdentifiedCondition& condition) {
-  return std::ranges::any_of(condition.readings, [&](std::size_t i) {
-    return runs.identification.readings[i].method == measured::Method::rational_fit;
-  });
-}
-
 void add_identified(MapBlock& map, const IdentifiedRuns& runs,
                     const compare::IdentifiedCondition& condition, const arm::Sensor& sensor,
                     bool with_poles) {
-  const bool fitted = has_fit(runs, condition);
-  for (std::size_t i = 0; i < condition.readings.size(); ++i) {
-    const auto& reading = runs.identification.readings[condition.readings[i]];
-    if (!is_shown(reading, fitted)) continue;
-    for (const auto& root : condition.roots[i]) {
-      const auto& entry = root.measured;
-      const bool is_zero = entry.feature == measured::Feature::zero;
-      if (!entry.frequency_Hz || (is_zero ? entry.sensor != sensor : !with_poles)) continue;
-      add_root(map, {"measured", Role::measured},
-               {is_zero ? Mark::zero : Mark::pole,
-                fmt::format("{} of {}", root_name(root), joined(reading.runs)), *entry.frequency_Hz,
-                entry.frequency_std_Hz, entry.damping_ratio, entry.damping_ratio_std});
-    }
+  const auto roots = read_roots(runs.identification, condition);
+  const auto best = best_roots(roots);
+  for (const ReadRoot& one : roots) {
+    const auto& entry = one.root->measured;
+    const bool is_zero = entry.feature == measured::Feature::zero;
+    if (one.root->alias_of_Hz || !is_by_best(one, best)) continue;
+    if (is_zero ? entry.sensor != sensor : !with_poles) continue;
+    add_root(map, {"measured", Role::measured},
+             {is_zero ? Mark::zero : Mark::pole,
+              fmt::format("{} of {}", root_name(*one.root), one.runs), *entry.frequency_Hz,
+              entry.frequency_std_Hz, entry.damping_ratio, entry.damping_ratio_std});
   }
   // Real zeros, those of a tip for one, are in the fits alone.
   for (const std::size_t f : condition.fits) {

@@ -22,8 +22,8 @@ CurvesBlock identified_responses(const IdentifiedRuns& runs);
 /// Autopower spectra of input and sensors; a view a run.
 CurvesBlock autopower_spectra(const IdentifiedRuns& runs);
 
-/// Fitted or, without a fit, read-off poles and zeros with standard errors beside those of the arm
-/// file; a block a payload and sensor.
+/// Poles and zeros, each by its best method, with standard errors beside those of the arm file; a
+/// block a payload and sensor.
 std::vector<MapBlock> identified_maps(const IdentifiedRuns& runs);
 
 /// Poles over the order of the model, by what is stable; a view a fit.

@@ -3,6 +3,7 @@
 #include "report/page/identification_blocks.hpp"
 #include "report/page/page_table.hpp"
 #include "report/page/page_words.hpp"
+#include "report/tables/best_roots.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/identified_root_tables.hpp"
 #include "report/tables/method_differences.hpp"
@@ -21,44 +22,36 @@ namespace {
 
 using measured::Identification;
 
-/// What is identified, each pole and zero once, and the one that is furthest from the arm file's.
+/// What is identified, each pole and zero once, by its best method.
 struct IdentifiedSummary {
   std::size_t poles = 0;
   std::size_t zeros = 0;
+  bool has_others = false;  ///< that have no number: unmatched, or aliases
   double largest_error_percent = 0.0;
   std::string furthest;  ///< "pole 2"; empty where nothing has a place in the arm file
 };
 
-std::string name_of_root(const compare::IdentifiedRoot& root) {
-  const auto& entry = root.measured;
-  if (entry.feature == measured::Feature::pole) return fmt::format("pole {}", *root.order);
-  return fmt::format("zero {} of the {}", *root.order,
-                     text_in_words(arm::to_string(*entry.sensor)));
+std::string name_of_root(const ReadRoot& one) {
+  if (one.is_pole()) {
+    return fmt::format("pole {}{}", *one.root->order, one.hub_held ? ", hub held" : "");
+  }
+  return fmt::format("zero {} of the {}", *one.root->order, text_in_words(one.sensor));
 }
 
 IdentifiedSummary summary_of(const IdentifiedRuns& runs) {
   IdentifiedSummary summary;
   for (const auto& condition : runs.conditions) {
-    std::set<std::string> seen;
-    for (std::size_t i = 0; i < condition.readings.size(); ++i) {
-      // A fit, where there is one, is the most accurate of the methods.
-      const bool has_fit = std::ranges::any_of(condition.readings, [&](std::size_t k) {
-        return runs.identification.readings[k].method == measured::Method::rational_fit;
-      });
-      const auto& reading = runs.identification.readings[condition.readings[i]];
-      if (has_fit && reading.method != measured::Method::rational_fit) continue;
-      for (const auto& root : condition.roots[i]) {
-        if (!root.order) continue;
-        const std::string name = name_of_root(root);
-        if (seen.insert(name).second) {
-          const bool is_pole = root.measured.feature == measured::Feature::pole;
-          ++(is_pole ? summary.poles : summary.zeros);
-        }
-        const double error = std::abs(root.error_percent());
-        if (std::isnan(error) || error <= summary.largest_error_percent) continue;
-        summary.largest_error_percent = error;
-        summary.furthest = name;
-      }
+    const auto roots = read_roots(runs.identification, condition);
+    summary.has_others |= std::ranges::any_of(roots, [](const auto& o) { return !o.root->order; });
+    std::set<std::string> seen;  // tables have poles sensor by sensor
+    for (const ReadRoot& one : best_roots(roots)) {
+      if (!one.root->order) continue;
+      const std::string name = name_of_root(one);
+      if (seen.insert(name).second) ++(one.is_pole() ? summary.poles : summary.zeros);
+      const double error = std::abs(one.root->error_percent());
+      if (std::isnan(error) || error <= summary.largest_error_percent) continue;
+      summary.largest_error_percent = error;
+      summary.furthest = name;
     }
   }
   return summary;
@@ -78,12 +71,16 @@ Verdict identification_verdict(const Identification& identification,
                                               [](const auto& run) { return !run.refusal.empty(); });
   Verdict verdict;
   if (summary.poles + summary.zeros == 0) {
-    verdict = {Status::bad, "nothing identified", "No pole or zero was identified in these data."};
+    verdict = {Status::bad, "nothing identified",
+               summary.has_others ? "No pole or zero of the arm file was identified: what was read "
+                                    "corresponds to none of them."
+                                  : "No pole or zero was identified in these data."};
   } else {
     const bool is_good = faults == 0 && !is_refused && doubtful.empty();
-    verdict = {is_good ? Status::good : Status::partial,
-               doubtful.empty() ? "identified" : "doubtful",
-               fmt::format("{} poles and {} zeros are identified.", summary.poles, summary.zeros)};
+    verdict = {
+        is_good ? Status::good : Status::partial, doubtful.empty() ? "identified" : "doubtful",
+        fmt::format("{} pole{} and {} zero{} identified.", summary.poles,
+                    summary.poles == 1 ? "" : "s", summary.zeros, summary.zeros == 1 ? "" : "s")};
     if (!summary.furthest.empty()) {
       verdict.sentence +=
           fmt::format(" The largest difference from the arm file is {:.3g} %, in {}.",

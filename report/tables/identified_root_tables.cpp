@@ -2,6 +2,7 @@
 
 #include "compare/features.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/method_differences.hpp"
 #include "report/tables/table.hpp"
 #include "report/tables/zero_kind.hpp"
 
@@ -140,20 +141,20 @@ Table table_of(const IdentifiedData& data, const std::string& caption) {
   return {fmt::format("{}: {}", data.runs, caption), {{"method"}, {"sensor"}}};
 }
 
-/// A last column with a text of each reading's roots, unless all are empty.
+/// A last column with a text of each reading, unless all are empty.
 template <class TextOf>
-void add_column(const IdentifiedData& data, const std::vector<std::size_t>& row_readings,
-                const std::string& name, const TextOf& text_of, Table& table) {
+void add_column(const std::vector<std::size_t>& row_readings, const Column& column,
+                const TextOf& text_of, Table& table) {
   std::vector<std::string> texts(table.rows.size());
   const std::size_t first = table.rows.size() - row_readings.size();
   bool any = false;
   for (std::size_t k = 0; k < row_readings.size(); ++k) {
     if (row_readings[k] == kNoReading) continue;
-    texts[first + k] = text_of(data.condition.roots[row_readings[k]]);
+    texts[first + k] = text_of(row_readings[k]);
     any = any || !texts[first + k].empty();
   }
   if (!any) return;
-  table.columns.push_back({name, "Hz"});
+  table.columns.push_back(column);
   for (std::size_t r = 0; r < texts.size(); ++r) {
     table.rows[r].push_back(texts[r].empty() ? Cell() : Cell(texts[r]));
   }
@@ -163,8 +164,25 @@ void add_column(const IdentifiedData& data, const std::vector<std::size_t>& row_
 void add_others(const IdentifiedData& data, const std::vector<std::size_t>& row_readings,
                 Feature feature, Table& table) {
   add_column(
-      data, row_readings, "unmatched",
-      [feature](const Roots& roots) { return others_of(roots, feature); }, table);
+      row_readings, {"unmatched", "Hz"},
+      [&](std::size_t i) { return others_of(data.condition.roots[i], feature); }, table);
+}
+
+/// The poles whose frequency, or damping ratio, is off that of a more accurate method.
+void add_differing(const IdentifiedData& data, const std::vector<std::size_t>& row_readings,
+                   bool is_damping, Table& table) {
+  const auto differing = differing_poles(data);
+  add_column(
+      row_readings, {"differs"},
+      [&](std::size_t i) {
+        std::vector<std::string> poles;
+        for (const DifferingPole& pole : differing) {
+          if (pole.reading != &reading_of(data, i) || pole.is_damping != is_damping) continue;
+          poles.push_back(fmt::format("pole {}", pole.order));
+        }
+        return fmt::format("{}", fmt::join(poles, ", "));
+      },
+      table);
 }
 
 /// Rows of a table of one figure a pole: those of the readings, and where two sensors or more were
@@ -253,6 +271,7 @@ Table pole_table(const IdentifiedData& data) {
                              root.error_percent()};
       },
       table);
+  add_differing(data, rows, false, table);
   add_others(data, rows, Feature::pole, table);
   return without_predictions(std::move(table), data.condition);
 }
@@ -280,7 +299,9 @@ Table zero_table(const IdentifiedData& data) {
     table.add_row(std::move(row));
   }
   add_others(data, readings, Feature::zero, table);
-  add_column(data, readings, "non-minimum phase", right_half_plane_zeros_of, table);
+  add_column(
+      readings, {"non-minimum phase", "Hz"},
+      [&](std::size_t i) { return right_half_plane_zeros_of(data.condition.roots[i]); }, table);
   return without_predictions(std::move(table), data.condition);
 }
 
@@ -323,13 +344,14 @@ Table damping_table(const IdentifiedData& data) {
   }
   if (orders.empty()) return table;
   if (!data.condition.analytical.is_empty()) table.add_row(std::move(analytical));
-  add_pole_rows(
+  const auto rows = add_pole_rows(
       data, readings, orders, false,
       [](const IdentifiedRoot& root) {
         return ComparedValue{root.measured.damping_ratio, root.measured.damping_ratio_std,
                              kMissing};
       },
       table);
+  add_differing(data, rows, true, table);
   return table;
 }
 

@@ -25,9 +25,10 @@ Table without_predictions(Table table, const compare::IdentifiedCondition& condi
 
 /// Tables 2 to 4 of the paper: method, sensor, and for each analytical pole that any reading shows
 /// the measured frequency, its standard error and its distance from the analytical one in per cent;
-/// behind the sensors of a method their mean with the scatter between them. A last column has the
-/// peaks that stand for no analytical pole, where there are any. Without rows where no pole was
-/// read.
+/// behind the sensors of a method their mean with the scatter between them. The last columns have,
+/// where there are any, the poles that differ from those of a more accurate method
+/// (report/tables/method_differences.hpp) and the peaks that stand for no analytical pole. Without
+/// rows where no pole was read.
 Table pole_table(const IdentifiedData& data);
 
 /// The same of the antiresonances of each sensor, each beside its own analytical one.

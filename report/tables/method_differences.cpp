@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -57,37 +58,42 @@ std::optional<PoleNumber> damping_of(const ModalEntry& entry) {
   return PoleNumber{*entry.damping_ratio, entry.damping_ratio_std.value_or(0.0)};
 }
 
-/// Of a pole, how far the estimate that is furthest off lies from the most accurate one.
+/// Of a pole, how far an estimate lies from the most accurate one.
 struct Difference {
   PoleEstimate best;
   PoleEstimate other;
   PoleNumber number_of_best;
   PoleNumber number_of_other;
   double part = 0.0;  ///< of the number of the best
-  int others = 0;     ///< further estimates that differ as surely
 };
 
-/// `least` and `most` are parts of the number: less is no difference, more is one whatever the
-/// errors.
-std::optional<Difference> furthest(const std::vector<PoleEstimate>& estimates, NumberOf number_of,
-                                   double least, double most) {
+/// The most that a number of two estimates may differ by without a word, as parts of the number.
+struct Tolerance {
+  NumberOf number_of = nullptr;
+  double least = 0.0;                                     ///< less is no difference
+  double most = std::numeric_limits<double>::infinity();  ///< more is one whatever the errors
+};
+constexpr Tolerance kFrequency{frequency_of, kLeastFrequency, kMostFrequency};
+constexpr Tolerance kDamping{damping_of, kLeastDamping};
+
+/// The furthest first. The estimates of one pole are most accurate first.
+std::vector<Difference> differences_of(const std::vector<PoleEstimate>& estimates,
+                                       const Tolerance& tolerance) {
+  std::vector<Difference> found;
+  if (estimates.empty()) return found;
   const PoleEstimate& best = estimates.front();
-  const auto of_best = number_of(*best.entry);
-  if (!of_best || of_best->value == 0.0) return std::nullopt;
-  std::optional<Difference> found;
-  int differing = 0;
+  const auto of_best = tolerance.number_of(*best.entry);
+  if (!of_best || of_best->value == 0.0) return found;
   for (const PoleEstimate& other : estimates) {
-    const auto number = number_of(*other.entry);
+    const auto number = tolerance.number_of(*other.entry);
     if (other.rank() == best.rank() || !number) continue;
     const double off = std::abs(number->value - of_best->value);
     const double part = off / std::abs(of_best->value);
     const bool is_sure = off > kSureDifference * std::hypot(number->std, of_best->std);
-    if (part < least || (!is_sure && part < most)) continue;
-    ++differing;
-    if (found && found->part >= part) continue;
-    found = Difference{best, other, *of_best, *number, part, 0};
+    if (part < tolerance.least || (!is_sure && part < tolerance.most)) continue;
+    found.push_back({best, other, *of_best, *number, part});
   }
-  if (found) found->others = differing - 1;
+  std::ranges::stable_sort(found, std::ranges::greater{}, &Difference::part);
   return found;
 }
 
@@ -172,41 +178,58 @@ std::string reason_of(const IdentifiedData& data, const Difference& difference) 
   return reason.empty() ? "no reason is evident from these data" : reason;
 }
 
-std::string text_of(const IdentifiedData& data, int order, const Difference& difference,
-                    const char* quantity, const char* unit) {
+std::string text_of(const IdentifiedData& data, int order,
+                    const std::vector<Difference>& differences, const char* quantity,
+                    const char* unit) {
+  const Difference& furthest = differences.front();
   const auto text = [unit](const PoleNumber& number) {
     return fmt::format("{:.4g} +- {:.2g}{}", number.value, number.std, unit);
   };
-  return fmt::format(
-      "{}: pole {}: {} by {}, {}, is {:.2g} % off that by {}, {}{}", data.runs, order, quantity,
-      difference.other.name(), text(difference.number_of_other), 100.0 * difference.part,
-      difference.best.name(), text(difference.number_of_best),
-      difference.others == 0
-          ? ""
-          : fmt::format(", as {} more estimate{} {}", difference.others,
-                        difference.others == 1 ? "" : "s", difference.others == 1 ? "is" : "are"));
+  const std::size_t others = differences.size() - 1;
+  return fmt::format("{}: pole {}: {} by {}, {}, is {:.3g} % off that by {}, {}{}", data.runs,
+                     order, quantity, furthest.other.name(), text(furthest.number_of_other),
+                     100.0 * furthest.part, furthest.best.name(), text(furthest.number_of_best),
+                     others == 0 ? ""
+                                 : fmt::format(", as {} more estimate{} {}", others,
+                                               others == 1 ? "" : "s", others == 1 ? "is" : "are"));
 }
 
-}  // namespace
-
-std::vector<std::string> method_differences(const IdentifiedData& data) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+std::set<int> orders_of_poles(const IdentifiedData& data) {
   std::set<int> orders;
   for (const auto& roots : data.condition.roots) {
     for (const IdentifiedRoot& root : roots) {
       if (root.measured.feature == Feature::pole && root.order) orders.insert(*root.order);
     }
   }
+  return orders;
+}
+
+}  // namespace
+
+std::vector<std::string> method_differences(const IdentifiedData& data) {
   std::vector<std::string> found;
-  for (const int order : orders) {
+  for (const int order : orders_of_poles(data)) {
     const auto estimates = estimates_of(data, order);
-    if (estimates.empty()) continue;
-    if (const auto off = furthest(estimates, frequency_of, kLeastFrequency, kMostFrequency)) {
-      found.push_back(text_of(data, order, *off, "frequency", " Hz"));
+    if (const auto off = differences_of(estimates, kFrequency); !off.empty()) {
+      found.push_back(text_of(data, order, off, "frequency", " Hz"));
     }
-    if (const auto off = furthest(estimates, damping_of, kLeastDamping, kNone)) {
-      found.push_back(text_of(data, order, *off, "damping ratio", "") + "; " +
-                      reason_of(data, *off));
+    if (const auto off = differences_of(estimates, kDamping); !off.empty()) {
+      found.push_back(text_of(data, order, off, "damping ratio", "") + "; " +
+                      reason_of(data, off.front()));
+    }
+  }
+  return found;
+}
+
+std::vector<DifferingPole> differing_poles(const IdentifiedData& data) {
+  std::vector<DifferingPole> found;
+  for (const int order : orders_of_poles(data)) {
+    const auto estimates = estimates_of(data, order);
+    for (const auto& off : differences_of(estimates, kFrequency)) {
+      found.push_back({off.other.reading, order, false});
+    }
+    for (const auto& off : differences_of(estimates, kDamping)) {
+      found.push_back({off.other.reading, order, true});
     }
   }
   return found;

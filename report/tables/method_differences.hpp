@@ -15,6 +15,15 @@ namespace flexarm::report {
 /// data speak for one: the window of the spectra, distortion, or residuals that are no noise.
 std::vector<std::string> method_differences(const IdentifiedData& data);
 
+/// A pole of a reading that `method_differences` states, or counts among those that differ as
+/// surely.
+struct DifferingPole {
+  const measured::ModalReading* reading = nullptr;
+  int order = 0;
+  bool is_damping = false;  ///< in its damping ratio, else in its frequency
+};
+std::vector<DifferingPole> differing_poles(const IdentifiedData& data);
+
 /// Of all runs of all conditions.
 std::vector<std::string> all_method_differences(
     const measured::Identification& identification,

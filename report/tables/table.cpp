@@ -25,8 +25,12 @@ void Table::add_row(std::vector<Cell> row) {
   rows.push_back(std::move(row));
 }
 
+double explained_share(double share) {
+  return std::clamp(share, 0.0, 1.0);
+}
+
 double explained_percent(double share) {
-  return 100.0 * std::clamp(share, 0.0, 1.0);
+  return 100.0 * explained_share(share);
 }
 
 bool is_missing(const Cell& cell) {

@@ -44,7 +44,10 @@ struct Table {
   void add_row(std::vector<Cell> row);
 };
 
-/// An explained share in %, from 0 to 100: what makes residuals larger explains nothing of them.
+/// An explained share from 0 to 1: what makes residuals larger explains nothing of them.
+double explained_share(double share);
+
+/// The same in %.
 double explained_percent(double share);
 
 /// True for a missing cell and for NaN.

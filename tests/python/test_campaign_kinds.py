@@ -61,6 +61,8 @@ class Diagnose(Recordings):
         self.assertEqual([row["state"] for row in rows], ["done", "done", "failed"], output)
         self.assertIn("multisine.csv", rows[2]["message"])
         self.assertEqual([row["cause_1"] for row in rows], ["time_delay", "time_delay", ""])
+        self.assertIn("cause_4", rows[0], "as many as max_causes allows")
+        self.assertNotIn("cause_5", rows[0])
         # The file of the task is the document of `flexarm diagnose --json`.
         name = rows[0]["task"]
         task = json.loads((out / "tasks" / name[:2] / f"{name}.json").read_text())

@@ -1,7 +1,10 @@
 #include "report/tables/diagnosis_tables.hpp"
 
+#include "report/json/diagnosis_json.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace flexarm::report {
 namespace {
@@ -175,6 +178,17 @@ TEST(DiagnosisTables, AShareIsFromNothingToAll) {
   made.causes[0].parameters.push_back({"coefficient", 1.0, 0.1, "N s/m^2"});
   made.causes[0].share = -0.5;
   EXPECT_EQ(std::get<double>(cause_table(made).rows.at(0).at(5)), 0.0);
+  // The JSON as the text.
+  made.causes.push_back(made.causes[0]);
+  made.causes[1].share = 0.25;
+  made.ruled_out = {{"gravity", -0.01}};
+  made.missing_force.emplace().ports = {{.place = "hub", .share = -0.2, .std_error = 0.1}};
+  const auto json = diagnosis_json(made, "");
+  EXPECT_EQ(json["causes"][0]["explained_share"], 0.0);
+  EXPECT_EQ(json["causes"][1]["explained_share"], 0.25);
+  EXPECT_EQ(json["candidates"][0]["explained_share"], 0.0);
+  EXPECT_EQ(json["search"]["ruled_out"][0]["explained_share"], 0.0);
+  EXPECT_EQ(json["missing_force"]["ports"][0]["explained_share"], 0.0);
 }
 
 }  // namespace

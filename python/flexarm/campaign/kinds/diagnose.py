@@ -13,7 +13,6 @@ WORST = "estimation_nrmse_after"
 FLAGGED = ("verdict", ["unexplained", "partly_explained"])
 TALLY = "verdict"
 
-_CAUSES_IN_TABLE = 3
 _PREDICTORS = [
     "auto", "output_error", "closed_loop", "grey_box", "torque_balance", "driven_by_motion",
     "frequency_response",
@@ -79,7 +78,7 @@ def run(task, folder):
 
 def columns(tasks):
     names = ["measurement", "verdict", "search_complete", "something_else"]
-    for k in range(1, _CAUSES_IN_TABLE + 1):
+    for k in range(1, next(iter(tasks))["max_causes"] + 1):
         names += [f"cause_{k}{part}" for part in ("", "_sensor", "_probability", "_parameters")]
     for part in ("estimation", "validation"):
         names += [f"{part}_nrmse_before", f"{part}_nrmse_after", f"{part}_noise_floor"]
@@ -100,7 +99,7 @@ def row(task, result):
     cells["verdict"] = result["verdict"]
     cells["search_complete"] = str(result["search"]["complete"]).lower()
     cells["something_else"] = result["something_else"]
-    for k, cause in enumerate(result["causes"][:_CAUSES_IN_TABLE], 1):
+    for k, cause in enumerate(result["causes"], 1):
         cells[f"cause_{k}"] = cause["effect"]
         cells[f"cause_{k}_sensor"] = cause.get("sensor")
         cells[f"cause_{k}_probability"] = cause["confidence"]

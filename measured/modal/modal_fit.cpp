@@ -376,7 +376,7 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     }
     judge_poles(fit, options, unexplained);
   }
-  if (task.forced && leaves_noise(study)) count_unsure_blocks(fit);
+  if (task.forced && leaves_more(study, kOnlyRounding)) count_unsure_blocks(fit);
   describe_sensors(fit, best, study);
   if (options.progress) options.progress(1.0);
   return fit;

@@ -121,8 +121,7 @@ TEST(Measurement, FilesStandBesideTheMeasurement) {
 }
 
 const std::vector<Mistake> kMeasurementMistakes = {
-    {"Empty", " \n", "1: empty; a measurement file needs arm and at least one [[run]]"},
-    {"ArmMissing", kRun, "1: arm: missing; must be the arm file, relative to this file"},
+    {"Empty", " \n", "1: empty; a measurement file needs at least one [[run]]"},
     {"RunMissing", kMeasurementHead, "1: run: missing; must be at least one [[run]]"},
     {"RunIsATable", kMeasurementHead + "[run]\nid = \"a\"\n",
      "3: run: a table; must be one [[run]] table per run"},

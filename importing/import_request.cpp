@@ -64,8 +64,10 @@ Import import_logs(const ImportRequest& asked, const std::function<void()>& read
         request.files, request.file, request.join,
         request.runs.hold == "first" ? measured::TorqueHold::first : measured::TorqueHold::zero));
   } else {
+    FileChoice choice = request.file;
+    choice.is_one_of_several = request.files.size() > 1;
     for (const auto& file : request.files) {
-      made.files.push_back(import_file(read_file(file, request.file), request.file));
+      made.files.push_back(import_file(read_file(file, choice), choice));
       read_one();
     }
   }

@@ -174,11 +174,14 @@ std::string likely_time(const ForeignTable& table) {
 }
 
 void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLabel>& labels,
-                  const ForeignFile& file) {
+                  const ForeignFile& file, bool is_one_of_several) {
+  const std::string join = is_one_of_several ? "; if the files are of one run, add --join" : "";
   const measured::ColumnMappings& mappings = guess.mappings;
   for (const auto& [quantity, otherwise] :
        {std::pair{"time", ", or the sampling period with --period"},
-        std::pair{"torque", ", or compute it with --torque EXPRESSION"}}) {
+        std::pair{"torque",
+                  ", compute it with --torque EXPRESSION, or state a free decay with "
+                  "--torque 0 --initial free"}}) {
     if (mappings.contains(quantity)) continue;
     if (const auto several = guess.ambiguous.find(quantity); several != guess.ambiguous.end()) {
       throw InputError(
@@ -188,12 +191,12 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
     const bool is_time = quantity == std::string_view("time");
     throw InputError(fmt::format(
         "{0}: column not recognised; columns: {1}{2}; assign one with --column "
-        "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}{7}",
+        "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}{7}{8}",
         quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
         quantity == std::string_view("torque") ? asked(guess, true) : "", besides(file.left_out),
         file.incomplete_response.empty() ? ""
                                          : "; no frequency response: " + file.incomplete_response,
-        strays(file.table)));
+        strays(file.table), join));
   }
   const bool has_sensor = std::ranges::any_of(
       mappings, [](const auto& entry) { return measured::sensor_of(entry.first).has_value(); });
@@ -205,8 +208,8 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
   }
   throw InputError(fmt::format(
       "no column is a sensor; columns: {}; assign one with --column "
-      "hub_angle=NAME:UNIT:SCALE{}{}{}",
-      join_names(labels), asked(guess, false), besides(file.left_out), strays(file.table)));
+      "hub_angle=NAME:UNIT:SCALE{}{}{}{}",
+      join_names(labels), asked(guess, false), besides(file.left_out), strays(file.table), join));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -301,7 +304,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
   auto guess =
       measured::guess_columns(to_guess, choice.columns.mappings(labels, imported.assumptions));
   choice.columns.set_time_unit(guess.mappings);
-  require_told(guess, labels, file);
+  require_told(guess, labels, file, choice.is_one_of_several);
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
   auto used = measured::places_used(guess.mappings, names);

@@ -19,6 +19,7 @@ struct FileChoice {
   std::optional<arm::Controller> controller;  ///< given if and only if the reference is typed
   std::optional<double> period_s;             ///< makes the times of a file without any
   std::optional<std::size_t> raw_columns;     ///< of a file of doubles
+  bool is_one_of_several = false;             ///< files, which may be of one run
 };
 
 /// What a foreign file was read as, and how.

@@ -64,8 +64,10 @@ std::vector<T> values_of(const GivenColumn& column) {
   const auto bad = std::ranges::find_if(
       values, [](const auto& value) { return !std::isfinite(std::abs(value)); });
   if (bad != values.end()) {
-    throw InputError(fmt::format("{} = {} at index {}: must be finite", column.name,
-                                 std::string(py::str(py::cast(*bad))), bad - values.begin()));
+    throw InputError(
+        fmt::format("{} = {} at index {}: must be finite; flexarm.import_log takes logs "
+                    "with missing samples (fill_gaps)",
+                    column.name, std::string(py::str(py::cast(*bad))), bad - values.begin()));
   }
   return values;
 }

@@ -41,6 +41,8 @@ std::vector<AnyRun> runs_in(const py::object& runs) {
   const bool is_one = py::isinstance<TimeRun>(runs) || py::isinstance<FrequencyRun>(runs) ||
                       py::isinstance<ModalRun>(runs);
   if (is_one) return {runs.cast<AnyRun>()};
+  // A DataFrame passes for a sequence.
+  if (!py::isinstance<py::list>(runs) && !py::isinstance<py::tuple>(runs)) throw py::cast_error();
   return runs.cast<std::vector<AnyRun>>();
 }
 

@@ -283,8 +283,10 @@ std::vector<DataFinding> check_values(std::span<const CheckedSignal> signals,
       std::ranges::all_of(torque.values, [](double value) { return value == 0.0; });
   // An arm that was released moves without a torque.
   if (is_zero && options.starts_at_rest) {
-    findings.push_back({Fault::zero_torque, torque.name, 0, 0.0, 0.0,
-                        "torque is zero at all samples: the actual input is unknown"});
+    findings.push_back(
+        {Fault::zero_torque, torque.name, 0, 0.0, 0.0,
+         "torque is zero at all samples: the actual input is unknown; of an arm that was "
+         "released or struck, state initial = \"free\""});
   }
   for (const auto& signal : signals) {
     const double step =

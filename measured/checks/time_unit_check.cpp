@@ -20,6 +20,7 @@ constexpr double kCertainFactor = 3.0;      // off 1
 constexpr double kLongestPeriod_s = 0.25;   // half a cycle of 2 Hz
 constexpr double kShortestPeriod_s = 1e-6;  // of any log of an arm
 constexpr double kThousand = 1000.0;
+constexpr double kNano = 1.5e-9;  // the smallest unit of logs, with room for rounding
 
 /// Change of the angle over the integral of the velocity, by least squares; empty where the two are
 /// not alike.
@@ -63,16 +64,19 @@ std::optional<TimeUnitDoubt> doubt_time_unit(const TimeRecord& record) {
   }
   const double period_s = clock_steps(record.time_s).period_s;
   if (period_s > kLongestPeriod_s) {
-    return TimeUnitDoubt{
-        1.0 / kThousand,
-        fmt::format("at one sample every {:.6g} s no flexible mode above {:.3g} Hz "
-                    "is seen",
-                    period_s, 1.0 / (2.0 * period_s))};
+    double factor = 1.0 / kThousand;
+    while (factor > kNano && period_s * factor > kLongestPeriod_s) factor /= kThousand;
+    return TimeUnitDoubt{factor,
+                         fmt::format("at one sample every {:.6g} s no flexible mode above {:.3g} "
+                                     "Hz is seen",
+                                     period_s, 1.0 / (2.0 * period_s))};
   }
   if (period_s > 0.0 && period_s < kShortestPeriod_s) {
-    return TimeUnitDoubt{kThousand, fmt::format("one sample every {:.3g} s is faster than an arm "
-                                                "is measured",
-                                                period_s)};
+    double factor = kThousand;
+    while (factor < 1.0 / kNano && period_s * factor < kShortestPeriod_s) factor *= kThousand;
+    return TimeUnitDoubt{factor, fmt::format("one sample every {:.3g} s is faster than an arm "
+                                             "is measured",
+                                             period_s)};
   }
   return std::nullopt;
 }

@@ -19,7 +19,7 @@ struct TimeUnitDoubt {
 ///   samples is the integral of the velocity times r, correlation above 0.7, and r is a power of
 ///   1000 within a factor of 1.5. If r is 1 within a factor of 3, there is no doubt.
 /// - The sampling period: above 0.25 s no flexible mode of an arm is seen, below 1 us no log is
-///   taken.
+///   taken. The unit is the nearest one, ms, us or ns, of which neither is so.
 ///
 /// `record` has two samples or more; its times may be uneven.
 std::optional<TimeUnitDoubt> doubt_time_unit(const TimeRecord& record);

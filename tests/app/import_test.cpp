@@ -136,7 +136,10 @@ TEST_F(Import, ALogOfTheRigsShapeNeedsOneMapping) {
       bare,
       "rig.csv: torque: column not recognised; columns: t_s, i1_cmd_A, i1_meas_A, hub1_ref_deg, "
       "hub1_deg, tipdefl1_deg, hub2_deg; assign one with --column "
-      "torque=NAME:UNIT:SCALE, or compute it with --torque EXPRESSION");
+      "torque=NAME:UNIT:SCALE, compute it with --torque EXPRESSION, or state a free decay with "
+      "--torque 0 --initial free");
+  const Ended several = import({"rig.csv", "rig.csv"});
+  EXPECT_THAT(several.errors, testing::EndsWith("; if the files are of one run, add --join\n"));
   std::vector<std::string> arguments = {"rig.csv", "--out", "rig"};
   arguments.insert(arguments.end(), kRigMapping.begin(), kRigMapping.end());
   const Ended ended = import(arguments);

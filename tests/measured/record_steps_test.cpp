@@ -193,6 +193,11 @@ TEST(TimeUnit, WithoutAVelocityThePeriodDoes) {
   EXPECT_EQ(slow->factor, 1e-3);
   EXPECT_THAT(slow->evidence, HasSubstr("one sample every 2 s"));
   EXPECT_TRUE(doubt_time_unit(swing(1e-4, false)));
+  for (const double factor : {1e3, 1e6, 1e9}) {
+    const auto doubt = doubt_time_unit(swing(factor, false));
+    ASSERT_TRUE(doubt) << factor;
+    EXPECT_NEAR(doubt->factor * factor, 1.0, 1e-9);
+  }
 }
 
 }  // namespace

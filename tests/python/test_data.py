@@ -232,6 +232,8 @@ class Measurements(unittest.TestCase):
              "payload_mass_kg = 'x': must be a number [kg] or None"),
             (lambda: flexarm.ModalRun(3), TypeError, "entries: must be a list of ModalEntry"),
             (lambda: flexarm.Measurement(self.arm, [1]), TypeError, "runs: must be a TimeRun"),
+            (lambda: flexarm.Measurement(self.arm, self.log.to_pandas()), TypeError, "runs: must be a TimeRun"),
+            (lambda: flexarm.Measurement(self.arm, {"time_s": [0.0, 1.0]}), TypeError, "runs: must be a TimeRun"),
             (lambda: flexarm.Measurement(1, self.log), TypeError, "arm: int; must be an Arm or the path"),
             (lambda: flexarm.diagnose(without), flexarm.InputError, "measurement: has no arm"),
             (lambda: flexarm.diagnose(self.log), TypeError,

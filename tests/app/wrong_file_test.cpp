@@ -47,7 +47,9 @@ TEST_F(WrongFile, EveryCommandSaysWhatTheFileIsAndWhichCommandTakesIt) {
       {{"response", "FILE"}, "must be an arm file", {"measurement.toml", "log.json"}},
       {{"simulate", "FILE"}, "must be an arm file", {"measurement.toml", "log.csv"}},
       {{"sweep", "FILE", "--over", "payload.mass=0:0.1:2"}, "must be an arm file", {"plan.toml"}},
-      {{"export", "FILE", "--fmu", "--out", "exported"}, "must be an arm file", {"measurement.toml"}},
+      {{"export", "FILE", "--fmu", "--out", "exported"},
+       "must be an arm file",
+       {"measurement.toml"}},
       {{"plan", "FILE", "plan.toml"}, "must be an arm file", {"plan.toml", "log.csv"}},
       {{"plan", "rig.toml", "FILE"},
        "must be a measurement plan",
@@ -84,6 +86,23 @@ TEST_F(WrongFile, EveryCommandSaysWhatTheFileIsAndWhichCommandTakesIt) {
       "compare, response and simulate take it");
   EXPECT_THAT(run({"diagnose", "log.csv"}).errors,
               HasSubstr("flexarm import log.csv --out FOLDER makes a measurement of it"));
+}
+
+TEST_F(WrongFile, WhatCompareTakesAsMeasuredIsNamedWhole) {
+  write("record.csv", "time [s],torque [N m],hub_angle [rad]\n0,0,0\n0.1,1,0\n0.2,1,0.1\n");
+  const std::string due =
+      "must be a modal table or frequency responses (CSV), or a measurement.toml, whose time runs "
+      "are simulated; ";
+  expect_refused(run({"compare", "rig.toml", "--measured", "record.csv"}),
+                 "record.csv: is a time record; " + due +
+                     "a run of a measurement.toml names it, and flexarm import record.csv --out "
+                     "FOLDER makes one of it");
+  EXPECT_THAT(run({"compare", "rig.toml", "--measured", "log.csv"}).errors,
+              AllOf(HasSubstr(due), HasSubstr("flexarm import log.csv")));
+  // A modal table with a fault keeps its line.
+  write("table.csv", "sensor,feature,frequency [Hz]\nall,pole,-3\n");
+  EXPECT_THAT(run({"compare", "rig.toml", "--measured", "table.csv"}).errors,
+              AllOf(StartsWith("table.csv:2: "), Not(HasSubstr("measurement.toml"))));
 }
 
 TEST_F(WrongFile, AFaultOfTheRightKindOfFileKeepsItsLine) {

@@ -88,6 +88,23 @@ TEST_F(WrongFile, EveryCommandSaysWhatTheFileIsAndWhichCommandTakesIt) {
               HasSubstr("flexarm import log.csv --out FOLDER makes a measurement of it"));
 }
 
+TEST_F(WrongFile, WhatCompareTakesAsMeasuredIsNamedWhole) {
+  write("record.csv", "time [s],torque [N m],hub_angle [rad]\n0,0,0\n0.1,1,0\n0.2,1,0.1\n");
+  const std::string due =
+      "must be a modal table or frequency responses (CSV), or a measurement.toml, whose time runs "
+      "are simulated; ";
+  expect_refused(run({"compare", "rig.toml", "--measured", "record.csv"}),
+                 "record.csv: is a time record; " + due +
+                     "a run of a measurement.toml names it, and flexarm import record.csv --out "
+                     "FOLDER makes one of it");
+  EXPECT_THAT(run({"compare", "rig.toml", "--measured", "log.csv"}).errors,
+              AllOf(HasSubstr(due), HasSubstr("flexarm import log.csv")));
+  // A modal table with a fault keeps its line.
+  write("table.csv", "sensor,feature,frequency [Hz]\nall,pole,-3\n");
+  EXPECT_THAT(run({"compare", "rig.toml", "--measured", "table.csv"}).errors,
+              AllOf(StartsWith("table.csv:2: "), Not(HasSubstr("measurement.toml"))));
+}
+
 TEST_F(WrongFile, AFaultOfTheRightKindOfFileKeepsItsLine) {
   write("typo.toml", "[beam]\nlenght = 1.0\n");
   EXPECT_THAT(run({"modes", "typo.toml"}).errors,

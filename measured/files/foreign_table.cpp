@@ -10,6 +10,7 @@
 #include "measured/files/labview_text.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/sampling_settings.hpp"
+#include "measured/files/table_reading.hpp"
 #include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/text_lines.hpp"
@@ -22,10 +23,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -41,73 +40,12 @@ using std::string_view;
 /// So many lines tell how a file is written.
 constexpr std::size_t kSample = 2000;
 
-/// In the order preferred where two make the same cells numbers.
-constexpr std::array<Dialect, 8> kDialects = {{{'\t', '.'},
-                                               {'\t', ','},
-                                               {';', '.'},
-                                               {';', ','},
-                                               {',', '.'},
-                                               {',', ','},
-                                               {' ', '.'},
-                                               {' ', ','}}};
-
 bool is_passed_over(string_view line) {
   return is_blank_line(line) || is_comment(line);
 }
 
-/// Numbers and time stamps among the cells.
-std::size_t count_numbers(std::span<const string_view> cells, char decimal) {
-  return static_cast<std::size_t>(std::ranges::count_if(cells, [&](string_view cell) {
-    if (parse_cell(cell, decimal)) return true;
-    const auto stamp = parse_time_stamp(cell);
-    return stamp && stamp->clock_ns;
-  }));
-}
-
-/// A row has two numbers or more: time and something measured.
-constexpr std::size_t kFewestNumbers = 2;
 /// A line of names in front of rows of more cells has at least so many, and half as many as cells.
 constexpr std::size_t kFewestNames = 3;
-
-/// A way to read the sample, and how much of it becomes numbers.
-struct Reading {
-  Dialect dialect;
-  std::size_t cells = 0;    ///< of a row
-  std::size_t whole = 0;    ///< rows of numbers alone
-  std::size_t numbers = 0;  ///< in all rows
-
-  std::pair<std::size_t, std::size_t> score() const { return {whole, numbers}; }
-};
-
-Reading read_sample(const std::vector<TextLine>& sample, const Dialect& dialect) {
-  std::map<std::size_t, Reading> by_cells;
-  LineSplitter splitter(dialect.separator);
-  for (const auto& line : sample) {
-    const auto cells = splitter.split(line.text);
-    const std::size_t numbers = count_numbers(cells, dialect.decimal);
-    if (numbers < kFewestNumbers) continue;
-    Reading& reading = by_cells[cells.size()];
-    reading.cells = cells.size();
-    const auto empty = static_cast<std::size_t>(std::ranges::count(cells, string_view()));
-    reading.whole += numbers + empty == cells.size() ? 1U : 0U;
-    reading.numbers += numbers;
-  }
-  Reading best{dialect};
-  for (auto& [cells, reading] : by_cells) {
-    reading.dialect = dialect;
-    if (reading.score() > best.score()) best = reading;
-  }
-  return best;
-}
-
-Reading best_reading(const std::vector<TextLine>& sample) {
-  Reading best;
-  for (const auto& dialect : kDialects) {
-    const Reading reading = read_sample(sample, dialect);
-    if (reading.score() > best.score()) best = reading;
-  }
-  return best;
-}
 
 /// Reads the table line by line, in the best reading of its first lines.
 class TableReader {
@@ -116,7 +54,7 @@ class TableReader {
     LineReader lines(text);
     TextLine line;
     while (sample_.size() < kSample && lines.next(line)) sample_.push_back(line);
-    reading_ = best_reading(sample_);
+    reading_ = best_table_reading(sample_);
     splitter_ = LineSplitter(reading_.dialect.separator);
   }
 
@@ -409,7 +347,7 @@ class TableReader {
 
   string_view text_;
   std::vector<TextLine> sample_;
-  Reading reading_;
+  TableReading reading_;
   LineSplitter splitter_{','};
   std::optional<CountedHeader> counted_;
   std::size_t first_ = 0;

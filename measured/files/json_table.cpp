@@ -225,9 +225,9 @@ class JsonTableBuilder {
                           is_list_of(*data, is_list);
     if (is_split) {
       add_table(names->get<std::vector<std::string>>(), *data, 0, path);
-      const auto units = std::ranges::find_if(
-          object.items(), [](const auto& entry) { return is_unit_key(entry.key()); });
-      if (units != object.items().end()) add_units(object, units.value(), path, units.key());
+      for (const auto& [key, value] : object.items()) {
+        if (is_unit_key(key)) add_units(object, value, path, key);
+      }
       return;
     }
     if (is_by_row(object)) {

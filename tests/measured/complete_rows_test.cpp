@@ -114,7 +114,7 @@ TEST(CompleteRows, TheEvenGridOfAllRowsIsKept) {
   const char* one_of_three = "t,u,y\n0,1,2\n2,1,2\n4,,2\n6,1,2\n8,1,2\n10,,2\n12,1,2\n";
   EXPECT_EQ(period_of(one_of_three), 2.0);
   EXPECT_EQ(period_of(one_of_three, {{"torque", Between::rows}}), std::nullopt);
-  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n4,1,2\n"), 2.0);
+  EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n4,1,2\n6,1,2\n"), 2.0);
   // Other rows are of something else, or the clock is uneven.
   EXPECT_EQ(period_of("t,u,y\n0,1,2\n1,,\n2,1,3\n3,,\n4,1,\n5,,\n6,1,5\n"), 2.0);
   EXPECT_EQ(period_of("t,u,y\n0,1,2\n2,,2\n7,1,2\n8,1,2\n"), std::nullopt);

@@ -323,8 +323,10 @@ Command add_simulate(CLI::App& program) {
   parser->add_option("--modes", options.modes,
                      "Number of flexible modes; default: as many as keep the truncation error of "
                      "each sensor below 1e-4 of its signal");
-  parser->add_flag("--static-correction", options.static_correction,
-                   "Add a residual mode for omitted modes");
+  parser->add_flag(
+      "--static-correction", options.static_correction,
+      "Add a residual mode for omitted modes; not added by default: torque steps excite it "
+      "(docs/numerics.md)");
   add_sensor_choice(*parser, arguments->sensors);
   parser->add_option("--substeps", options.substeps,
                      "Minimum number of inner steps per sample; default: automatic");

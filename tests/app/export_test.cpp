@@ -32,6 +32,26 @@ TEST_F(ExportCommand, WritesTheSameFmuForTheSameArm) {
   EXPECT_EQ(text_of("rig.fmu"), text_of("other/rig.fmu"));
 }
 
+TEST_F(ExportCommand, TheFmuHasAsManyModesAsItsErrorAsksFor) {
+  write("rig.toml", kArm);
+  const auto exported = [&](std::vector<std::string> further) {
+    std::vector<std::string> arguments = {"export", "--fmu", "rig.toml", "--json", "out.json"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.errors;
+    return Json::parse(text_of("out.json"));
+  };
+  const Json chosen = exported({})["fmu"]["truncation"];
+  EXPECT_TRUE(chosen["chosen"].get<bool>());
+  ASSERT_FALSE(chosen["errors"].empty());
+  for (const Json& sensor : chosen["errors"]) {
+    EXPECT_LE(sensor["error"].get<double>(), chosen["tolerance"].get<double>()) << sensor;
+  }
+  const Json given = exported({"--modes", "2"});
+  EXPECT_EQ(given["modes"], 2);
+  EXPECT_FALSE(given["fmu"]["truncation"]["chosen"].get<bool>());
+}
+
 TEST_F(ExportCommand, RefusesWhatDoesNotGoTogether) {
   write("rig.toml", kArm);
   expect_refused(run({"export", "rig.toml"}), "export: needs --fmu, or --state-space FILE");

@@ -92,6 +92,25 @@ TEST_F(FigureOptionsOf, UnitsAreThoseOfEveryBodeDiagram) {
   }
 }
 
+TEST_F(FigureOptionsOf, UnitsAreThoseOfMeasuredResponses) {
+  ASSERT_EQ(run({"simulate", "rig.toml", "--duration", "3", "--period", "0.005", "--sensor",
+                 "hub_velocity", "--noise", "0.01", "--excitation", "random:rms=0.05,to=60,id=a",
+                 "--out", "sim"})
+                .status,
+            0);
+  std::vector<std::string> command = {
+      "identify", "sim/measurement.toml", "--no-fit", "--out", "out", "--force"};
+  ASSERT_EQ(run(command).status, 0);
+  const std::string absolute = text_of("out/frf-a-hub_velocity.svg");
+  EXPECT_THAT(absolute, HasSubstr("[rad/s/(N m)]"));
+  EXPECT_THAT(absolute, HasSubstr("frequency [Hz]"));
+  command.insert(command.end(), {"--magnitude", "dB", "--frequency-unit", "rad/s"});
+  ASSERT_EQ(run(command).status, 0);
+  const std::string decibel = text_of("out/frf-a-hub_velocity.svg");
+  EXPECT_THAT(decibel, HasSubstr("[dB re 1 rad/s/(N m)]"));
+  EXPECT_THAT(decibel, HasSubstr("frequency [rad/s]"));
+}
+
 TEST_F(FigureOptionsOf, NyquistDiagramsShowMoreOnRequest) {
   write("damped.toml", text_of("rig.toml") + "\n[effects.structural_damping]\ntime = 1e-4\n");
   const std::vector<std::string> command = {"response", "damped.toml", "--sensor", "hub_angle",

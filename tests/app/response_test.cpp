@@ -113,6 +113,31 @@ TEST_F(Response, AStaticCorrectionBringsTheStateSpaceNearer) {
   EXPECT_LT(median_error({}), 0.01 * median_error({"--modes-alone"}));
 }
 
+TEST_F(Response, TheStateSpaceHasAsManyModesAsItsErrorAsksFor) {
+  write_rig();
+  const auto truncation = [&](std::vector<std::string> further) {
+    std::vector<std::string> arguments = {"response", "rig.toml", "--state-space",
+                                          "a.json",   "--json",   "out.json"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    EXPECT_EQ(run(arguments).status, 0);
+    return Json::parse(text_of("out.json"))["arms"][0]["truncation"];
+  };
+  const Json chosen = truncation({});
+  EXPECT_TRUE(chosen["chosen"].get<bool>());
+  ASSERT_FALSE(chosen["errors"].empty());
+  for (const Json& sensor : chosen["errors"]) {
+    EXPECT_LE(sensor["error"].get<double>(), chosen["tolerance"].get<double>()) << sensor;
+  }
+  const std::size_t flexible = chosen["modes"].get<std::size_t>();
+  // Two states of the rigid body and of the residual mode each, one of the actuator.
+  EXPECT_EQ(Json::parse(text_of("a.json"))["A"].size(), 2 * flexible + 5);
+  const Json given = truncation({"--modes", "1", "--modes-alone"});
+  EXPECT_FALSE(given["chosen"].get<bool>());
+  EXPECT_EQ(given["modes"], 1);
+  EXPECT_THAT(run({"response", "rig.toml", "--state-space", "b.json", "--modes", "1"}).output,
+              HasSubstr("Truncation: 1 flexible mode given; estimated error"));
+}
+
 /// What a script in another language needs to compare A, B, C, D with `response`.
 constexpr const char* kTolerance = "1e-9";  // solutions of 12 equations by another library
 

@@ -1,5 +1,6 @@
 #include "report/figures/pole_zero_figure.hpp"
 
+#include "report/figures/meaning.hpp"
 #include "report/figures/svg.hpp"
 
 #include <gmock/gmock.h>
@@ -77,6 +78,18 @@ TEST(PoleZeroFigure, RootsAtTheOriginAndAtInfinityAreLeftOut) {
   const PanelStack plane = pole_zero_figure(odd).stacks.at(0);
   EXPECT_EQ(series_named(plane.panels[0], "exact_tf, zeros").y.size(), 1U);
   EXPECT_THROW(pole_zero_figure({"none", {{"fem", {{0, 0}}, {}}}}), std::invalid_argument);
+}
+
+TEST(PoleZeroFigure, MeasuredMarksAreSeenAmongThoseOfAllFormulations) {
+  PoleZeroPlot plot = pole_zero_plot();
+  plot.sets.push_back(plot.sets[0]);
+  plot.sets.back().formulation = "assumed_modes";
+  plot.sets.push_back({"measured", {{0, 75.4}}, {}, true});
+  const Panel plane = pole_zero_figure(plot).stacks.at(0).panels.at(0);
+  const Style measured = series_named(plane, "measured, poles").style;
+  EXPECT_EQ(measured.colour, kMeasuredColour);
+  EXPECT_GT(measured.marker_size, series_named(plane, "fem, poles").style.marker_size);
+  EXPECT_GE(measured.marker_size, 1.0) << "gnuplot's standard; it was 0.5, about 2 pixels";
 }
 
 TEST(PoleZeroFigure, DrawsEveryFormulation) {

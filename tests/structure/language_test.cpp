@@ -135,6 +135,11 @@ TEST(Language, SentencesOfDocumentsAreShort) {
   }
 }
 
+TEST(Language, ReadmeIsOnePage) {
+  constexpr int kMostLines = 100;
+  EXPECT_LE(std::ranges::count(read(kRoot / "README.md"), '\n'), kMostLines);
+}
+
 TEST(Language, ReadsJoinedLiteralsAndNoComments) {
   const auto found = literals(
       "#include \"a/told from.hpp\"\n// \"told\"\nconst char q = '\"';\nf(\"one \"  // why\n  "

@@ -366,7 +366,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
                 : drift_of(leading.selection, made.verdict, leading.causes(), last);
   });
   in_time("the symptoms", [&] {
-    made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift));
+    made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift), last);
+    if (!made.symptoms.is_complete) left_out.emplace_back("all symptoms");
   });
   if (predicted.balance && made.symptoms.hub_torque.terms.empty()) {
     // A simulation that runs away shows nothing of the torque that it lacks.
@@ -391,7 +392,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     });
   }
   made.posterior = posterior_sets(predicted, options, last);
-  made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors);
+  made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors, last);
   if (is_open) {
     in_time("the near misses", [&] { made.near_misses = near_misses(predicted, judged, last); });
   }

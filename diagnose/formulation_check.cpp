@@ -6,7 +6,8 @@
 
 namespace flexarm::diagnose {
 
-FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors) {
+FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
+                                    const arm::Deadline& deadline) {
   if (!arm::has_beam(arm)) return {.refused = "an arm without a beam has one formulation"};
   compare::Options options;
   options.poles = kCheckedRoots;
@@ -14,12 +15,16 @@ FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::
   if (!sensors.empty()) options.sensors = sensors;
   options.refinements = false;
   options.response_points = 50;
+  options.progress = [&](int /*done*/, int /*total*/) { arm::require_time(deadline); };
   try {
+    arm::require_time(deadline);
     const compare::Verdict verdict = compare::compare(arm, options).verdict;
     return {verdict.agree, verdict.worst.distance, verdict.worst.tolerance, verdict.worst.quantity,
             ""};
   } catch (const arm::InputError& error) {
     return {.refused = error.what()};
+  } catch (const arm::Cancelled&) {
+    return {.refused = "the time limit left no time for it"};
   }
 }
 

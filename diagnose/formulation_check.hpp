@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/deadline.hpp"
 #include "arm/sensor.hpp"
 
 #include <string>
@@ -18,7 +19,9 @@ struct FormulationCheck {
 };
 
 /// Compares the first `kCheckedRoots` poles and zeros of `sensors` (compare/comparison.hpp).
-FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors);
+/// Refused after the deadline.
+FormulationCheck check_formulations(const arm::Arm& arm, const std::vector<arm::Sensor>& sensors,
+                                    const arm::Deadline& deadline = {});
 inline constexpr int kCheckedRoots = 4;
 
 }  // namespace flexarm::diagnose

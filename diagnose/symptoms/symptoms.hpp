@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/run_drift.hpp"
 #include "diagnose/symptoms/band_errors.hpp"
 #include "diagnose/symptoms/hub_torque.hpp"
@@ -19,9 +20,11 @@ struct Symptoms {
   HubTorque hub_torque;
   std::vector<RunDistortion> distortion;
   std::optional<RunDrift> drift;
+  bool is_complete = true;  ///< else the deadline left no time for the last of these
 };
 
-/// `drift` is of the leading effect; empty where there is none.
-Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift);
+/// `drift` is of the leading effect; empty where there is none. After the deadline: what there is.
+Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift,
+                     const Deadline& deadline = {});
 
 }  // namespace flexarm::diagnose

@@ -1,3 +1,4 @@
+#include "diagnose/formulation_check.hpp"
 #include "diagnose/symptoms/band_errors.hpp"
 #include "diagnose/symptoms/error_trends.hpp"
 #include "diagnose/symptoms/frequency_bands.hpp"
@@ -8,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -126,6 +128,23 @@ TEST(SymptomsOfNothing, AreNotSignificant) {
       EXPECT_FALSE(one.is_significant) << seed << ": " << one.text;
     }
   }
+}
+
+TEST(SymptomsOfNothing, EndAtTheDeadlineWithWhatThereIs) {
+  const Symptomatic data(simulated_experiment({}));
+  const Deadline past = std::chrono::steady_clock::now();
+  const Symptoms made = symptoms_of(data.input(), std::nullopt, past);
+  EXPECT_FALSE(made.is_complete);
+  EXPECT_TRUE(made.bands.empty());
+  EXPECT_TRUE(symptoms_of(data.input(), std::nullopt).is_complete);
+}
+
+TEST(FormulationCheck, IsRefusedAfterTheDeadline) {
+  const std::vector<arm::Sensor> sensors = {{arm::SensorKind::hub_angle, 0.0}};
+  const FormulationCheck made =
+      check_formulations(arm::paper_arm(), sensors, std::chrono::steady_clock::now());
+  EXPECT_EQ(made.refused, "the time limit left no time for it");
+  EXPECT_EQ(check_formulations(arm::paper_arm(), sensors).refused, "");
 }
 
 }  // namespace

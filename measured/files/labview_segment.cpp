@@ -231,10 +231,10 @@ class SegmentJoiner {
       }
     }
     std::ranges::stable_sort(samples, {}, &Sample::x);
-    constexpr double kSameTime_periods = 1e-3;
+    constexpr double kSameRow_periods = 1e-3;
     double last = 0.0;
     for (const Sample& sample : samples) {
-      const bool is_same = sample.x - last <= kSameTime_periods * period_;
+      const bool is_same = sample.x - last <= kSameRow_periods * period_;
       if (&sample == &samples.front() || !is_same) {
         begin_row(sample.x + offset, segment.lines[sample.row]);
         last = sample.x;

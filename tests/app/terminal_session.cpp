@@ -16,12 +16,12 @@ namespace {
 constexpr int kAtWork_ms = 20'000;
 constexpr char kCtrlC = '\x03';
 
-struct Session {
+struct OpenTerminal {
   pid_t child = -1;
   int terminal = -1;
 };
 
-Session start_session(const std::vector<std::string>& arguments, unsigned short columns,
+OpenTerminal start_session(const std::vector<std::string>& arguments, unsigned short columns,
                       const std::map<std::string, std::string>& environment) {
   std::vector<std::string> words = {FLEXARM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -31,7 +31,7 @@ Session start_session(const std::vector<std::string>& arguments, unsigned short 
   winsize size{};
   size.ws_row = 24;
   size.ws_col = columns;
-  Session session;
+  OpenTerminal session;
   session.child = ::forkpty(&session.terminal, nullptr, nullptr, &size);
   if (session.child < 0) throw std::runtime_error("no terminal");
   if (session.child == 0) {
@@ -44,7 +44,7 @@ Session start_session(const std::vector<std::string>& arguments, unsigned short 
   return session;
 }
 
-Ended finish_session(const Session& session) {
+Ended finish_session(const OpenTerminal& session) {
   std::string output;
   std::array<char, 4096> part{};
   for (ssize_t count = 0; (count = ::read(session.terminal, part.data(), part.size())) > 0;) {
@@ -64,7 +64,7 @@ Ended run_on_terminal(const std::vector<std::string>& arguments, unsigned short 
 }
 
 Ended interrupt_on_terminal(const std::vector<std::string>& arguments, unsigned short columns) {
-  const Session session = start_session(arguments, columns, {});
+  const OpenTerminal session = start_session(arguments, columns, {});
   pollfd progress = {session.terminal, POLLIN, 0};
   ::poll(&progress, 1, kAtWork_ms);
   [[maybe_unused]] const ssize_t typed = ::write(session.terminal, &kCtrlC, 1);

@@ -62,9 +62,8 @@ std::vector<std::optional<arm::PolePair>> zeros_with_damping(
     const arm::PolePair start = pairs[i].value_or(undamped_pair(undamped_rad_per_s[i]));
     const auto first = followed(formulation, sensor, start.first_rad_per_s);
     const bool is_conjugate = start.second_rad_per_s == std::conj(start.first_rad_per_s);
-    const auto second = !first || is_conjugate
-                            ? first
-                            : followed(formulation, sensor, start.second_rad_per_s);
+    const auto second =
+        !first || is_conjugate ? first : followed(formulation, sensor, start.second_rad_per_s);
     pairs[i].reset();
     if (!first || !second) continue;
     pairs[i] = arm::PolePair{*first, is_conjugate ? std::conj(*first) : *second};

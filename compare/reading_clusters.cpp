@@ -1,5 +1,7 @@
 #include "compare/reading_clusters.hpp"
 
+#include "measured/spectra/robust.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,6 +54,7 @@ struct RootCluster {
     return period_s > 0.0 ? 0.5 / period_s : kInfinite;
   }
   bool is_pole() const { return feature == Feature::pole; }
+  bool is_fitted() const { return estimates.front().method == Method::rational_fit; }
 };
 
 using RootClusters = std::vector<RootCluster>;
@@ -113,12 +116,9 @@ RootClusters clusters_of(std::span<const SampledReading> readings) {
     add_to(clusters, entry.feature, is_pole ? std::nullopt : entry.sensor, estimate);
   }
   std::ranges::stable_sort(clusters, {}, &RootCluster::frequency_Hz);
-  const auto is_fitted = [](const RootCluster& cluster) {
-    return cluster.estimates.front().method == Method::rational_fit;
-  };
-  const bool has_fit = std::ranges::any_of(clusters, is_fitted);
+  const bool has_fit = std::ranges::any_of(clusters, &RootCluster::is_fitted);
   for (RootCluster& cluster : clusters) {
-    cluster.is_sure = !has_fit || is_fitted(cluster) || cluster.estimates.size() > 1;
+    cluster.is_sure = !has_fit || cluster.is_fitted() || cluster.estimates.size() > 1;
   }
   return clusters;
 }
@@ -297,6 +297,29 @@ void count_up(RootClusters& clusters) {
   }
 }
 
+/// Takes the order from peaks that are much farther from the model than the poles of the fit.
+void withdraw_far_peaks(RootClusters& clusters, const ModelRoots& model) {
+  constexpr double kStandardDeviations = 3.0;
+  constexpr std::size_t kFewestFitted = 3;
+  const auto deviation = [&](const RootCluster& cluster) {
+    return std::log(cluster.frequency_Hz() / pole_of(model, cluster.place.order)->frequency_Hz);
+  };
+  std::vector<double> fitted;
+  for (const RootCluster& cluster : clusters) {
+    if (cluster.is_pole() && cluster.is_fitted() &&
+        pole_of(model, cluster.place.order) != nullptr) {
+      fitted.push_back(deviation(cluster));
+    }
+  }
+  if (fitted.size() < kFewestFitted) return;
+  const double mean = measured::mean(fitted);
+  const double within = kSamePole + kStandardDeviations * measured::standard_deviation(fitted);
+  for (RootCluster& cluster : clusters) {
+    if (!cluster.is_pole() || cluster.is_fitted() || !pole_of(model, cluster.place.order)) continue;
+    if (std::abs(deviation(cluster) - mean) > within) cluster.place.order.reset();
+  }
+}
+
 void give_orders(RootClusters& clusters, const std::optional<ModelRoots>& model) {
   if (!model) {
     mark_aliases_by_spacing(clusters);
@@ -307,6 +330,7 @@ void give_orders(RootClusters& clusters, const std::optional<ModelRoots>& model)
   }
   const ClusterNumbering numbered = number(clusters, *model);
   for (std::size_t c = 0; c < clusters.size(); ++c) clusters[c].place.order = numbered.orders[c];
+  withdraw_far_peaks(clusters, *model);
 }
 
 /// A given table: the zeros of one sensor number the poles of all.

@@ -138,34 +138,36 @@ double common_factor(const ModalTable& table, const ModelRoots& model,
   return count > 0.0 ? std::exp(sum / count) : 1.0;
 }
 
-/// Numbers those of `measured` without an order by distance from `factor` times the model's.
+/// Numbers those of `measured` without an order by distance from `factor` times the model's,
+/// nearest first, so that orders rise with frequency. A root with no order left between its
+/// neighbours' has none.
 void number_by_distance(const Sequence& measured, const std::vector<ModelRoot>& model,
                         double factor, std::vector<RootOrder>& orders) {
-  std::vector<ModelRoot> free;
-  std::ranges::copy_if(model, std::back_inserter(free), [&](const ModelRoot& root) {
-    return std::ranges::find(measured, root.order, &SequenceRoot::order) == measured.end();
-  });
-  std::vector<std::complex<double>> reference, found;
-  std::vector<std::size_t> entries;
-  for (const ModelRoot& root : free) reference.emplace_back(factor * root.frequency_Hz);
+  struct Pair {
+    double distance = 0.0;
+    const SequenceRoot* root = nullptr;
+    int order = 0;
+  };
+  std::vector<Pair> pairs;
   for (const SequenceRoot& root : measured) {
     if (root.order) continue;
-    found.emplace_back(root.frequency_Hz);
-    entries.push_back(root.entry);
+    for (const ModelRoot& candidate : model) {
+      const double there_Hz = factor * candidate.frequency_Hz;
+      pairs.push_back({std::abs(std::log(root.frequency_Hz / there_Hz)), &root, candidate.order});
+    }
   }
-  // Of equal sums of distances the match may be one in which orders fall with frequency.
-  std::vector<int> matched_orders;
-  std::vector<std::pair<double, std::size_t>> matched_roots;
-  const auto matched = match_nearest(reference, found);
-  for (std::size_t i = 0; i < matched.size(); ++i) {
-    if (!matched[i]) continue;
-    const auto at = std::ranges::find(found, *matched[i]) - found.begin();
-    matched_orders.push_back(free[i].order);
-    matched_roots.emplace_back(matched[i]->real(), entries[static_cast<std::size_t>(at)]);
-  }
-  std::ranges::sort(matched_roots);
-  for (std::size_t k = 0; k < matched_roots.size(); ++k) {
-    orders[matched_roots[k].second] = {matched_orders[k], OrderBasis::distance};
+  std::ranges::stable_sort(pairs, {}, &Pair::distance);
+  Sequence numbered = measured;
+  for (const Pair& pair : pairs) {
+    if (orders[pair.root->entry].order) continue;
+    const bool rises = std::ranges::all_of(numbered, [&](const SequenceRoot& other) {
+      if (!other.order) return true;
+      return other.frequency_Hz < pair.root->frequency_Hz ? *other.order < pair.order
+                                                          : *other.order > pair.order;
+    });
+    if (!rises) continue;
+    orders[pair.root->entry] = {pair.order, OrderBasis::distance};
+    std::ranges::find(numbered, pair.root->entry, &SequenceRoot::entry)->order = pair.order;
   }
 }
 

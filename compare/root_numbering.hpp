@@ -46,8 +46,9 @@ struct RootOrder {
 ///     |mean d| <= ln kMostFactor.
 ///
 /// Roots that this does not number, and zeros that do not alternate with poles, take the order of
-/// the nearest (`match_nearest`) after exp(mean d) of the poles numbered until then has been taken
-/// out; 1 where there are none. Without frequency a root has no order unless it is stated.
+/// the nearest after exp(mean d) of the poles numbered until then has been taken out; 1 where there
+/// are none. Nearest pairs come first, and orders rise with frequency: a root between two of
+/// successive orders has none. Without frequency a root has no order unless it is stated.
 std::vector<RootOrder> number_roots(const measured::ModalTable& table, const ModelRoots& model);
 
 /// Single wrong numbers of an arm (rigidity, hub inertia, payload, root compliance, by up to a

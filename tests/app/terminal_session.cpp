@@ -22,7 +22,7 @@ struct OpenTerminal {
 };
 
 OpenTerminal start_session(const std::vector<std::string>& arguments, unsigned short columns,
-                      const std::map<std::string, std::string>& environment) {
+                           const std::map<std::string, std::string>& environment) {
   std::vector<std::string> words = {FLEXARM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;

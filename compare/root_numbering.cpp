@@ -152,8 +152,8 @@ void number_by_distance(const Sequence& measured, const std::vector<ModelRoot>& 
   for (const SequenceRoot& root : measured) {
     if (root.order) continue;
     for (const ModelRoot& candidate : model) {
-      const double there_Hz = factor * candidate.frequency_Hz;
-      pairs.push_back({std::abs(std::log(root.frequency_Hz / there_Hz)), &root, candidate.order});
+      const double distance = relative_distance(root.frequency_Hz, factor * candidate.frequency_Hz);
+      if (distance <= kNearest) pairs.push_back({distance, &root, candidate.order});
     }
   }
   std::ranges::stable_sort(pairs, {}, &Pair::distance);

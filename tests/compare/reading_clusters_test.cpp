@@ -19,7 +19,7 @@ using measured::Method;
 using measured::ModalReading;
 
 /// Modes of a ruler; seen at 500 Hz, so that its pole 4 folds to 183.91 Hz.
-constexpr double kPeriod_s = 0.002;
+constexpr double kSamplingPeriod_s = 0.002;
 constexpr std::array kTrue_Hz = {18.144, 59.9815, 161.9332, 316.085};
 
 arm::Arm ruler(double flexural_rigidity_N_m2) {
@@ -50,7 +50,7 @@ ModalReading poles(Method method, const std::optional<arm::Sensor>& sensor,
 
 std::vector<std::vector<RootPlace>> places_of(const std::vector<ModalReading>& readings,
                                               const std::optional<ModelRoots>& model,
-                                              double period_s = kPeriod_s) {
+                                              double period_s = kSamplingPeriod_s) {
   std::vector<SampledReading> sampled;
   for (const ModalReading& reading : readings) sampled.push_back({&reading, period_s});
   return place_readings(sampled, model);

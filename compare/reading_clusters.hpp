@@ -58,7 +58,7 @@ inline constexpr double kSameZero = 0.08;
 inline constexpr double kUnmatched = 0.25;
 inline constexpr double kAliasPrice = 0.03;
 inline constexpr double kMostChance = 0.05;
-inline constexpr int kMostTurns = 2;
+inline constexpr int kMostTurns = 8;
 inline constexpr double kTooNear = 0.6;
 inline constexpr double kContinued = 0.2;
 

@@ -80,13 +80,13 @@ class RowKeeper {
     std::size_t count = 0;
     double first = 0.0;
     for (double& value : values_of(used)) {
-      if (!(std::abs(value) >= kOverRange) || std::isinf(value)) continue;
+      if (!is_over_range(value)) continue;
       if (count++ == 0) first = value;
       value = kUnknown;
     }
     if (count == 0) return;
     kept_.notes.push_back(
-        fmt::format("{}: {} cell{} of column {} with {:g} or more, an instrument's sign of no "
+        fmt::format("{}: {} cell{} of column {} with {:g}, an instrument's sign of no "
                     "measurement; taken as empty",
                     used.quantity, count, count == 1 ? "" : "s",
                     arm::shown(table_.columns[used.place].name), first));

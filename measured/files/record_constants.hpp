@@ -9,8 +9,12 @@ namespace flexarm::measured {
 /// A number that a record does not have.
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Instruments write 9.9E37 and 9.91E37 (SCPI) and greater numbers for what they could not measure.
-inline constexpr double kOverRange = 9.9e37;
+/// Whether this stands for what an instrument could not measure: 9.9E37, 9.91E37
+/// (SCPI), 9.99999E37.
+inline constexpr bool is_over_range(double value) {
+  const double size = value < 0.0 ? -value : value;
+  return size >= 9.9e37 && size <= 1e38;
+}
 
 /// Standard names beside those of sensors.
 inline constexpr std::string_view kTime = "time";

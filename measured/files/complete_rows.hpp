@@ -27,8 +27,8 @@ struct CompleteRows {
   std::size_t rows_in_file = 0;
   /// Whether a torque acts in the incomplete rows in front of the first complete one.
   bool is_driven_before = false;
-  /// Of an even grid that the times of all rows are on, or of all with a number beside the time, in
-  /// the unit of the file; empty for uneven times, where no row is left out, and with
+  /// Holds the distance of an even grid, in the unit of the file: that of all rows, or of all rows
+  /// with a number beside the time. Empty for uneven times, where no row is left out, and with
   /// `Between::rows`.
   std::optional<double> period;
   std::vector<std::string> notes;     ///< a sentence on what was filled or left out

@@ -25,8 +25,8 @@ struct EvenOptions {
   TorqueHold torque_hold = TorqueHold::zero;
   /// A gap of missing samples <= this is filled by interpolation; a longer one splits the record.
   std::size_t longest_filled_gap = 3;
-  /// Of a record that was even before samples were taken out: each time is on this grid. Empty:
-  /// not known.
+  /// Holds the sampling period of a record that was even before samples were taken out; each time
+  /// is on this grid. Empty: not known.
   std::optional<double> period_s = std::nullopt;
   /// A stretch of samples < this is left out.
   std::size_t fewest_samples = 10;

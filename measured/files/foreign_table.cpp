@@ -100,7 +100,7 @@ class TableReader {
            });
   }
 
-  /// What a column is in the last rows of the sample, which are no head.
+  /// Tells what a column holds in the last rows of the sample, which are no head.
   enum class LastCells { empty, numbers, texts };
 
   /// Goes back from the end of the sample up to the first line that is no row.

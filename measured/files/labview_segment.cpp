@@ -162,7 +162,7 @@ class SegmentJoiner {
     }
   }
 
-  /// What to add to the times of a segment.
+  /// Returns the offset that is added to the times of a segment.
   double offset_of(const LabviewSegment& segment) {
     const auto& x = segment.channels[0].x;
     const auto start = start_of(segment);

@@ -206,7 +206,7 @@ std::string MatNames::told_frequency_unit(string_view path) const {
 
 std::string MatNames::told_unit(string_view path) const {
   const string_view owner = owner_of(path);
-  // Beside times, "w" is no frequency.
+  // A "w" beside times is no frequency.
   const auto of_frequency = times_in_.contains(owner) ? std::nullopt : unit_of_frequency_name(path);
   if (std::string unit = told_frequency_unit(path); of_frequency && !unit.empty()) return unit;
   const char* info = is_time_field(path) ? "TimeInfo" : "DataInfo";

@@ -22,7 +22,7 @@ namespace {
 
 using measured::Identification;
 
-/// What is identified, each pole and zero once, by its best method.
+/// Counts the poles and zeros that are identified, each once, by its best method.
 struct IdentifiedSummary {
   std::size_t poles = 0;
   std::size_t zeros = 0;

@@ -31,13 +31,13 @@ struct ReadRoot {
   std::string name() const;
 };
 
-/// Those with a frequency, in the order of the condition's readings.
+/// Returns the roots with a frequency, in the order of the condition's readings.
 std::vector<ReadRoot> read_roots(const measured::Identification& identification,
                                  const compare::IdentifiedCondition& condition);
 
-/// Of each numbered root and each alias the reading of the best method, with the smallest standard
-/// error: a rational fit, a given table, circles, responses, autopower spectra. Poles first, then
-/// zeros sensor by sensor.
+/// Returns one reading of each numbered root and each alias: that of the best method (a rational
+/// fit, a given table, circles, responses, autopower spectra) with the smallest standard error.
+/// Poles come first, then zeros sensor by sensor.
 std::vector<ReadRoot> best_roots(std::vector<ReadRoot> roots);
 
 /// Whether a root is by a method that `best` has it by; of one without a number, whether `best` has

@@ -58,7 +58,7 @@ std::optional<PoleNumber> damping_of(const ModalEntry& entry) {
   return PoleNumber{*entry.damping_ratio, entry.damping_ratio_std.value_or(0.0)};
 }
 
-/// Of a pole, how far an estimate lies from the most accurate one.
+/// Holds how far an estimate of a pole lies from the most accurate one.
 struct Difference {
   PoleEstimate best;
   PoleEstimate other;

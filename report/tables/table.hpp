@@ -47,7 +47,7 @@ struct Table {
 /// An explained share from 0 to 1: what makes residuals larger explains nothing of them.
 double explained_share(double share);
 
-/// The same in %.
+/// Returns the explained share in %.
 double explained_percent(double share);
 
 /// True for a missing cell and for NaN.

@@ -264,14 +264,18 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
   for (std::size_t i = 0; i < identification.runs.size(); ++i) {
     condition_of(identification.runs[i].run.payload).runs.push_back(i);
   }
+  const auto loaded = [&](const arm::Payload& payload) {
+    arm::Arm made = *arm;
+    made.payload = payload;
+    return made;
+  };
   const auto sensors = sensors_of(identification);
   for (auto& condition : conditions) {
     if (!arm) break;
-    arm::Arm loaded = *arm;
-    loaded.payload = condition.payload;
-    condition.analytical = analytical_modes(
-        loaded, sensors, needed_Hz(highest_Hz(identification, condition.payload, *arm)),
-        range_of(identification, condition.payload, *arm));
+    condition.analytical =
+        analytical_modes(loaded(condition.payload), sensors,
+                         needed_Hz(highest_Hz(identification, condition.payload, *arm)),
+                         range_of(identification, condition.payload, *arm));
   }
   for (std::size_t i = 0; i < identification.readings.size(); ++i) {
     condition_of(identification.readings[i].payload).readings.push_back(i);
@@ -284,9 +288,7 @@ std::vector<IdentifiedCondition> conditions_of(const measured::Identification& i
     }
     ModelRoots model = model_roots(condition.analytical);
     if (arm) {
-      arm::Arm loaded = *arm;
-      loaded.payload = condition.payload;
-      model.beyond = poles_beyond(loaded, model.poles.size(), readings);
+      model.beyond = poles_beyond(loaded(condition.payload), model.poles.size(), readings);
     }
     const auto places = place_readings(readings, arm ? std::optional(model) : std::nullopt);
     for (std::size_t k = 0; k < readings.size(); ++k) {

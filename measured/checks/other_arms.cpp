@@ -103,23 +103,25 @@ Explained with_one_more(const JudgedRecord& record, const ArmVariations& arms,
   return best;
 }
 
-/// A record, with the arm that is to explain it and what that may stand for.
+/// A record, with the arms that are to explain it.
 struct Explaining {
   const JudgedRecord& record;
-  DescribedArm arm;
-  ArmVariations variations;
+  ArmVariations arms;
 };
+
+/// The arm as filed, by the simulation of its variations: distances of both are compared.
+Explained as_filed(const Explaining& one) { return {{}, one.record.distance(one.arms.with({}))}; }
 
 bool explains_more(const Explaining& recorded, const Explaining& mended, bool is_sign,
                    double nearer) {
-  const Explained as_filed{{}, recorded.record.distance(recorded.arm)};
-  const Explained mended_as_filed{{}, mended.record.distance(mended.arm)};
-  const Explained varied = with_one_more(recorded.record, recorded.variations, as_filed);
-  if (!(varied.distance < mended_as_filed.distance - nearer)) return false;
-  const double by_mending = as_filed.distance - mended_as_filed.distance;
-  if (is_sign && as_filed.distance - varied.distance > kMuchMore * by_mending) return true;
-  const Explained mended_varied = with_one_more(mended.record, mended.variations, mended_as_filed);
-  return with_one_more(recorded.record, recorded.variations, varied).distance <
+  const Explained filed = as_filed(recorded);
+  const Explained mended_filed = as_filed(mended);
+  const Explained varied = with_one_more(recorded.record, recorded.arms, filed);
+  if (!(varied.distance < mended_filed.distance - nearer)) return false;
+  const double by_mending = filed.distance - mended_filed.distance;
+  if (is_sign && filed.distance - varied.distance > kMuchMore * by_mending) return true;
+  const Explained mended_varied = with_one_more(mended.record, mended.arms, mended_filed);
+  return with_one_more(recorded.record, recorded.arms, varied).distance <
          mended_varied.distance - nearer;
 }
 
@@ -143,8 +145,7 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
   });
   const bool is_sign = std::ranges::all_of(
       found, [](const DataFinding& one) { return one.fault == Fault::sign_flipped; });
-  return explains_more({recorded, options.described, variations},
-                       {mended, options.described, variations}, is_sign,
+  return explains_more({recorded, variations}, {mended, variations}, is_sign,
                        is_scaled_torque ? kNearerThanScaledTorque : kNearerArm);
 }
 
@@ -154,9 +155,8 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
   if (!options.described || !options.variations || !mended.described) return false;
   const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
   const auto& torque_N_m = signals[0].values;
-  return explains_more({recorded, options.described, variations_for(options, torque_N_m, period_s)},
-                       {recorded, mended.described, variations_for(mended, torque_N_m, period_s)},
-                       false, kNearerArm);
+  return explains_more({recorded, variations_for(options, torque_N_m, period_s)},
+                       {recorded, variations_for(mended, torque_N_m, period_s)}, false, kNearerArm);
 }
 
 }  // namespace flexarm::measured

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fstream>
@@ -21,19 +22,36 @@ arm::InputError unreadable(const fs::path& path, const std::string& reason) {
   return arm::InputError(fmt::format("{}: {}", arm::shown(path.string()), reason));
 }
 
-/// " (did you mean ...?)" with the file of the same folder whose name is nearest.
-std::string nearest_file(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+/// Names of the files in `folder`, ascending.
+std::vector<std::string> files_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end;
        entry.increment(ignored)) {
     if (entry->is_regular_file(ignored)) names.push_back(entry->path().filename().string());
   }
-  const auto name = arm::nearest_name(path.filename().string(), names);
+  std::ranges::sort(names);
+  return names;
+}
+
+/// " (did you mean ...?)" with the file of the same folder whose name is nearest.
+std::string nearest_file(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const auto name = arm::nearest_name(path.filename().string(), files_in(folder));
   return name
              ? fmt::format(" (did you mean {}?)", arm::shown((path.parent_path() / *name).string()))
              : "";
+}
+
+/// ", such as ..." with the TOML files of a folder: its arm, its measurement.
+std::string toml_files_in(const fs::path& folder) {
+  std::vector<std::string> paths;
+  for (const std::string& name : files_in(folder)) {
+    if (name.ends_with(".toml")) paths.push_back(arm::shown((folder / name).string()));
+  }
+  constexpr std::size_t kMostShown = 3;
+  if (paths.empty() || paths.size() > kMostShown) return "";
+  return fmt::format(", such as {}", fmt::join(paths, " or "));
 }
 
 }  // namespace
@@ -46,7 +64,9 @@ std::string read_text_file(const fs::path& path, std::size_t largest_bytes) {
     throw unreadable(path, "no such file" + nearest_file(path));
   }
   if (error) throw unreadable(path, "cannot be read: " + error.message());
-  if (fs::is_directory(status)) throw unreadable(path, "is a folder; must be a file");
+  if (fs::is_directory(status)) {
+    throw unreadable(path, "is a folder; must be a file" + toml_files_in(path));
+  }
   // A pipe may wait for ever, a device may have no end.
   if (!fs::is_regular_file(status)) {
     throw unreadable(path, "is a pipe or a device; must be a regular file");

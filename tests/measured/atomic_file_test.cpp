@@ -212,7 +212,7 @@ TEST_F(AtomicFile, AFileThatCannotBeReadSaysWhy) {
   EXPECT_EQ(error_of([&] { read_text_file(folder_ / "rgi.toml", kAnySize); }),
             folder + "/rgi.toml: no such file (did you mean " + folder + "/rig.toml?)");
   EXPECT_EQ(error_of([&] { read_text_file(folder_, kAnySize); }),
-            folder + ": is a folder; must be a file");
+            folder + ": is a folder; must be a file, such as " + folder + "/rig.toml");
   EXPECT_EQ(error_of([] { read_text_file("/dev/zero", 1000); }),
             "/dev/zero: is a pipe or a device; must be a regular file");
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);

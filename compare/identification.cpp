@@ -1,6 +1,7 @@
 #include "compare/identification.hpp"
 
 #include "arm/rigid_hub.hpp"
+#include "compare/damped_roots.hpp"
 #include "compare/reading_clusters.hpp"
 #include "compare/standard_models.hpp"
 #include "response/any_formulation.hpp"
@@ -118,6 +119,17 @@ std::vector<arm::Sensor> sensors_of(const measured::Identification& identificati
   return sensors;
 }
 
+std::vector<std::vector<Complex>> damped_roots(const response::AnyFormulation& formulation,
+                                               const arm::Sensor& sensor,
+                                               const std::vector<Complex>& undamped_rad_per_s) {
+  std::vector<std::vector<Complex>> roots;
+  if (undamped_rad_per_s.empty()) return roots;
+  for (const auto& pair : zeros_with_damping(formulation, sensor, undamped_rad_per_s)) {
+    roots.push_back(pair ? with_conjugates(*pair) : std::vector<Complex>());
+  }
+  return roots;
+}
+
 }  // namespace
 
 AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Sensor> sensors,
@@ -141,8 +153,9 @@ AnalyticalModes analytical_modes(const arm::Arm& arm, std::span<const arm::Senso
       for (const auto& sensor : sensors) {
         arm::require_valid(sensor, arm);
         if (!arm::is_responsive(sensor, arm)) continue;
-        analytical.zeros.push_back(
-            {sensor, response::zeros(formulation, sensor, roots).s_rad_per_s});
+        auto undamped = response::zeros(formulation, sensor, roots).s_rad_per_s;
+        auto damped = damped_roots(formulation, sensor, undamped);
+        analytical.zeros.push_back({sensor, std::move(undamped), std::move(damped)});
         wanted.sensors.push_back(sensor);
       }
       if (range && !wanted.sensors.empty()) {

@@ -27,10 +27,13 @@ struct AnalyticalPole {
   double damping_ratio = 0.0;
 };
 
-/// Zeros with Re s >= 0, Im s >= 0, undamped, ascending in |s|.
+/// Zeros of torque to a sensor, ascending in |s| without damping.
 struct AnalyticalZeros {
   arm::Sensor sensor;
-  std::vector<std::complex<double>> s_rad_per_s;
+  std::vector<std::complex<double>> s_rad_per_s;  ///< undamped, Re s >= 0, Im s >= 0
+  /// The roots that each becomes with the arm's damping, conjugates included; empty where they
+  /// could not be followed.
+  std::vector<std::vector<std::complex<double>>> damped_rad_per_s = {};
 };
 
 /// What an arm, in its linear effects, should show of a measurement; poles, zeros and responses by

@@ -2,7 +2,9 @@
 
 #include "measured/spectra/robust.hpp"
 
+#include <algorithm>
 #include <complex>
+#include <functional>
 
 namespace flexarm::measured {
 
@@ -82,7 +84,8 @@ DescribedStretch::DescribedStretch(std::span<const CheckedSignal> signals,
 }
 
 double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
-                          const Transforms& recorded, const DescribedArm& arm) {
+                          const Transforms& recorded, const DescribedArm& arm,
+                          CountedBlocks counted) {
   const auto values = readings_of(signals, recorded.period_s, arm);
   if (values.empty()) return 1.0;
   const auto x = all_lines(signals, recorded);
@@ -92,8 +95,15 @@ double described_distance(std::span<const CheckedSignal> signals, const std::vec
   for (std::size_t a = 1; a < signals.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (!usable[a] || !usable[b]) continue;
+      std::vector<bool> blocks;
+      if (counted == CountedBlocks::coherent) {
+        blocks = coherent_among_blocks(
+            recorded, [&](std::size_t bin) { return x[a][bin]; },
+            [&](std::size_t bin) { return x[b][bin]; });
+        if (std::ranges::none_of(blocks, std::identity())) continue;
+      }
       const auto [left, right] = sides(x, y, a, b);
-      sum += distance(recorded, left, right);
+      sum += distance(recorded, left, right, blocks);
       count += 1.0;
     }
   }

@@ -35,8 +35,15 @@ struct DescribedStretch {
                    const DescribedArm& arm);
 };
 
-/// The mean `distance` of both sides of these relations of all usable pairs.
+/// Blocks of frequencies that a distance counts.
+enum class CountedBlocks {
+  all,
+  coherent,  ///< those in which both recorded signals are coherent: the others hold noise
+};
+
+/// The mean `distance` of both sides of these relations of all usable pairs; 1 without any.
 double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
-                          const Transforms& recorded, const DescribedArm& arm);
+                          const Transforms& recorded, const DescribedArm& arm,
+                          CountedBlocks counted = CountedBlocks::all);
 
 }  // namespace flexarm::measured

@@ -165,14 +165,27 @@ GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineVa
   return fit;
 }
 
-double distance(const Transforms& transforms, const LineValues& x, const LineValues& y) {
+double distance(const Transforms& transforms, const LineValues& x, const LineValues& y,
+                const std::vector<bool>& counted) {
   const auto blocks = blocks_of(transforms, x, y, kHighestShare);
   double sum = 0.0;
-  for (const auto& block : blocks) {
-    const double power = block.xx + block.yy;
-    sum += power > 0.0 ? 1.0 - 2.0 * block.xy.real() / power : 1.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (!counted.empty() && !counted[i]) continue;
+    const double power = blocks[i].xx + blocks[i].yy;
+    sum += power > 0.0 ? 1.0 - 2.0 * blocks[i].xy.real() / power : 1.0;
+    count += 1.0;
   }
-  return blocks.empty() ? 1.0 : sum / static_cast<double>(blocks.size());
+  return count > 0.0 ? sum / count : 1.0;
+}
+
+std::vector<bool> coherent_among_blocks(const Transforms& transforms, const LineValues& x,
+                                        const LineValues& y) {
+  std::vector<bool> coherent;
+  for (const Block& block : blocks_of(transforms, x, y, kHighestShare)) {
+    coherent.push_back(block.coherence() >= kLeastCoherence);
+  }
+  return coherent;
 }
 
 LowFrequencyFit fit_low_frequencies(const Transforms& transforms, Quantity x, Quantity y,

@@ -39,9 +39,15 @@ using LineValues = std::function<std::complex<double>(std::size_t bin)>;
 /// The same of x(bin) = gain y(bin) exp(-i omega delay).
 GainFit fit_gain(const Transforms& transforms, const LineValues& x, const LineValues& y);
 
-/// How far x(bin) is from y(bin): the mean over the blocks of |x - y|^2/(|x|^2 + |y|^2), 0 to 2,
-/// 1 for what is unrelated.
-double distance(const Transforms& transforms, const LineValues& x, const LineValues& y);
+/// Distance of x(bin) from y(bin): the mean over the blocks of |x - y|^2/(|x|^2 + |y|^2), 0 to 2,
+/// 1 for what is unrelated and without blocks. `counted` says of each block whether it counts; all
+/// do where it is empty.
+double distance(const Transforms& transforms, const LineValues& x, const LineValues& y,
+                const std::vector<bool>& counted = {});
+
+/// Blocks with coherence squared of kLeastCoherence or more, of all.
+std::vector<bool> coherent_among_blocks(const Transforms& transforms, const LineValues& x,
+                                        const LineValues& y);
 
 /// x against y over the lines below a frequency.
 struct LowFrequencyFit {

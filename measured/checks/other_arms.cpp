@@ -50,7 +50,8 @@ class JudgedRecord {
   }
 
   double distance(const DescribedArm& arm) const {
-    return arm ? described_distance(signals_, usable_, transforms_, arm) : 1.0;
+    return arm ? described_distance(signals_, usable_, transforms_, arm, CountedBlocks::coherent)
+               : 1.0;
   }
 
  private:

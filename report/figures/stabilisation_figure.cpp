@@ -4,6 +4,7 @@
 #include "report/figures/equal_axes.hpp"
 #include "report/figures/feature_marks.hpp"
 #include "report/figures/meaning.hpp"
+#include "report/figures/measured_curve.hpp"
 
 #include <fmt/format.h>
 
@@ -57,7 +58,7 @@ const std::array<Symbol, static_cast<std::size_t>(Stability::kCount)> kSymbols =
     {"stable pole", marker_style(kIdentifiedColour, Marker::disc, 0.8)},
 }};
 
-/// The course of the background between two heights.
+/// The course of the background between two heights, with a gap between measured bands.
 Series background_series(const MeanResponse& mean, const measured::StabilisationChart& chart,
                          double bottom, double top) {
   Series series{"mean |H|, log", {}, {}, thin_line(grey)};
@@ -68,6 +69,10 @@ Series background_series(const MeanResponse& mean, const measured::Stabilisation
     const double f_Hz = mean.frequency_Hz[i];
     if (f_Hz < chart.from_Hz || f_Hz > chart.to_Hz) continue;
     const double value = mean.magnitude[i] > 0.0 ? std::log(mean.magnitude[i]) : kNotDrawn;
+    if (begins_band(mean.frequency_Hz, i)) {
+      series.x.push_back(f_Hz);
+      series.y.push_back(kNotDrawn);
+    }
     series.x.push_back(f_Hz);
     series.y.push_back(value);
     if (!std::isfinite(value)) continue;

@@ -145,9 +145,8 @@ void add_roots(PageDocument& document, const NamedArm& arm) {
   const compare::Comparison& comparison = arm.arm->comparison;
   Section section{"roots", titled("Poles and zeros", arm)};
   section.text.push_back(
-      "Undamped. A zero in the right half plane is non-minimum-phase: the response to a step "
-      "begins "
-      "in the wrong direction.");
+      "Maps have the damping of the arm. A zero in the right half plane is non-minimum-phase: the "
+      "response to a step begins in the wrong direction.");
   for (MapBlock& map : comparison_maps(arm)) section.blocks.emplace_back(std::move(map));
   std::size_t number = 0;
   for (const Table& table : root_tables(comparison)) {

@@ -1,5 +1,7 @@
 #include "report/page/comparison_blocks.hpp"
 
+#include "compare/damped_roots.hpp"
+#include "report/figures/pole_zero_figure.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/page/page_curves.hpp"
 #include "report/page/page_words.hpp"
@@ -11,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace flexarm::report::page {
@@ -68,14 +71,19 @@ void add_formulation(MapBlock& map, const Comparison& comparison, std::size_t k,
                      const arm::Sensor& sensor) {
   const MapSeries series{text_in_words(comparison.subjects[k]), numbered_role(k)};
   std::vector<compare::AnalyticalPole> poles;
-  std::vector<std::complex<double>> zeros;
+  std::vector<std::vector<std::complex<double>>> zeros;
   for (const auto& row : comparison.roots) {
     if (!row.s_rad_per_s[k]) continue;
     const std::complex<double> s = *row.s_rad_per_s[k];
+    // Without a damped pair the arm has no damping, or the root was not found with it.
+    const auto damped = row.damped.empty() ? std::nullopt : row.damped[k];
+    if (!row.damped.empty() && !damped) continue;
     if (!row.family.zeros_of) {
-      poles.push_back({std::abs(s) / (2.0 * std::numbers::pi), -s.real() / std::abs(s)});
+      const auto pole = damped ? compare::natural_frequency(*damped)
+                               : compare::NaturalFrequency{std::abs(s) / (2.0 * std::numbers::pi)};
+      poles.push_back({pole.frequency_Hz, pole.damping_ratio});
     } else if (*row.family.zeros_of == sensor) {
-      zeros.push_back(s);
+      zeros.push_back(damped ? compare::with_conjugates(*damped) : with_mirror_images({&s, 1}));
     }
   }
   add_poles(map, series, poles);

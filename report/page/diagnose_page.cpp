@@ -241,9 +241,8 @@ Section roots_section(const Diagnosis& diagnosis, std::vector<MapBlock> maps) {
   Section section{"roots", "Poles and zeros"};
   if (!maps.empty()) {
     section.text.push_back(
-        "Poles have the damping of the arm; zeros are those of the undamped arm. A zero in the "
-        "right half plane is non-minimum-phase. Friction, backlash and other nonlinear effects are "
-        "in none of them.");
+        "Poles and zeros have the damping of the arm. A zero in the right half plane is "
+        "non-minimum-phase. Friction, backlash and other nonlinear effects are in none of them.");
   }
   for (MapBlock& map : maps) section.blocks.emplace_back(std::move(map));
   Table shifts = root_shift_table(diagnosis.symptoms);

@@ -117,16 +117,12 @@ std::vector<compare::AnalyticalPole> shown_poles(const compare::AnalyticalModes&
   return shown;
 }
 
-std::vector<std::complex<double>> shown_zeros(const compare::AnalyticalModes& modes,
-                                              const arm::Sensor& sensor, double to_Hz) {
-  std::vector<std::complex<double>> shown;
-  for (const auto& zeros : modes.zeros) {
-    if (zeros.sensor != sensor) continue;
-    for (const auto& s : zeros.s_rad_per_s) {
-      if (std::abs(s) <= 2.0 * std::numbers::pi * to_Hz) shown.push_back(s);
-    }
-  }
-  return shown;
+std::vector<std::vector<std::complex<double>>> shown_zeros(const compare::AnalyticalModes& modes,
+                                                           const arm::Sensor& sensor,
+                                                           double to_Hz) {
+  const auto zeros = std::ranges::find(modes.zeros, sensor, &compare::AnalyticalZeros::sensor);
+  if (zeros == modes.zeros.end()) return {};
+  return zeros_up_to(zeros->damped_rad_per_s, 2.0 * std::numbers::pi * to_Hz);
 }
 
 void add_measured(MapBlock& map, const std::vector<arm::Sensor>& sensors,

@@ -282,15 +282,11 @@ std::vector<MapBlock> identified_maps(const IdentifiedRuns& runs) {
       for (const arm::Sensor& sensor : sensors) {
         add_identified(map, runs, condition, sensor, &sensor == &sensors.front());
       }
-      const auto& s_rad_per_s = std::ranges::find(condition.analytical.zeros, sensors.front(),
-                                                  &compare::AnalyticalZeros::sensor)
-                                    ->s_rad_per_s;
+      const auto zeros = std::ranges::find(condition.analytical.zeros, sensors.front(),
+                                           &compare::AnalyticalZeros::sensor);
       add_poles(map, {kArmFile, Role::before}, poles);
-      std::vector<std::complex<double>> zeros;
-      for (const auto& s : s_rad_per_s) {
-        if (std::abs(s) <= 2.0 * std::numbers::pi * shown_Hz) zeros.push_back(s);
-      }
-      add_zeros(map, {kArmFile, Role::before}, zeros);
+      add_zeros(map, {kArmFile, Role::before},
+                zeros_up_to(zeros->damped_rad_per_s, 2.0 * std::numbers::pi * shown_Hz));
       if (!map.points.empty()) maps.push_back(std::move(map));
     }
   }

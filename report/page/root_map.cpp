@@ -1,6 +1,5 @@
 #include "report/page/root_map.hpp"
 
-#include "report/figures/pole_zero_figure.hpp"
 #include "report/figures/sensor_label.hpp"
 #include "report/page/page_words.hpp"
 
@@ -90,11 +89,12 @@ void add_poles(MapBlock& map, const MapSeries& series,
   }
 }
 
-void add_zeros(MapBlock& map, const MapSeries& series, const std::vector<Complex>& s_rad_per_s) {
+void add_zeros(MapBlock& map, const MapSeries& series,
+               const std::vector<std::vector<Complex>>& roots_rad_per_s) {
   int number = 0;
-  for (const Complex& zero : s_rad_per_s) {
+  for (const std::vector<Complex>& roots : roots_rad_per_s) {
     ++number;
-    for (const Complex& s : with_mirror_images({&zero, 1})) {
+    for (const Complex& s : roots) {
       const bool is_real = s.imag() == 0.0;
       map.points.push_back(
           {.mark = Mark::zero,
@@ -109,6 +109,16 @@ void add_zeros(MapBlock& map, const MapSeries& series, const std::vector<Complex
                {"zero", fmt::format("{}", number)}}});
     }
   }
+}
+
+std::vector<std::vector<Complex>> zeros_up_to(std::vector<std::vector<Complex>> roots_rad_per_s,
+                                              double to_rad_per_s) {
+  for (std::vector<Complex>& roots : roots_rad_per_s) {
+    const bool is_near = std::ranges::any_of(
+        roots, [&](const Complex& s) { return std::abs(s) <= to_rad_per_s; });
+    if (!is_near) roots.clear();
+  }
+  return roots_rad_per_s;
 }
 
 void add_root(MapBlock& map, const MapSeries& series, const MeasuredRoot& root) {

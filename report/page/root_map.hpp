@@ -31,9 +31,14 @@ MapBlock root_map(const std::string& id, const std::string& title, const std::st
 void add_poles(MapBlock& map, const MapSeries& series,
                const std::vector<compare::AnalyticalPole>& poles);
 
-/// Zeros with their images -s, conj(s), -conj(s).
+/// Zeros, each with all its roots: conjugates, mirror images.
 void add_zeros(MapBlock& map, const MapSeries& series,
-               const std::vector<std::complex<double>>& s_rad_per_s);
+               const std::vector<std::vector<std::complex<double>>>& roots_rad_per_s);
+
+/// Those zeros of which a root is within `to_rad_per_s` of 0; the others without roots, so that
+/// numbers stay.
+std::vector<std::vector<std::complex<double>>> zeros_up_to(
+    std::vector<std::vector<std::complex<double>>> roots_rad_per_s, double to_rad_per_s);
 
 /// A measured pole or zero, by frequency and damping ratio; without a damping ratio it is on the
 /// imaginary axis.

@@ -220,6 +220,38 @@ TEST_F(Report, OfAComparisonHasTheRootsOfTheJson) {
   EXPECT_GT(first_pole.front(), 1.2 * first_pole.back());
 }
 
+/// Re s of the zeros beside the Re s that Kelvin-Voigt damping alone makes of undamped ones,
+/// -kv |s|^2/2 (s^2 + kv w^2 s + w^2 = 0).
+void expect_kelvin_voigt_zeros(const Json& points, const std::string& role, double kelvin_voigt_s) {
+  int zeros = 0;
+  for (const Json& point : points) {
+    if (point["mark"] != "zero" || point["role"] != role) continue;
+    const double real = point["real"];
+    const double imaginary = point["imaginary"];
+    const double expected = -0.5 * kelvin_voigt_s * (real * real + imaginary * imaginary);
+    EXPECT_NEAR(real, expected, 1e-6 * std::abs(expected));
+    ++zeros;
+  }
+  EXPECT_GT(zeros, 0);
+}
+
+TEST_F(Report, MapsHaveTheZerosOfTheDampedArm) {
+  constexpr double kKelvinVoigt_s = 1e-4;  // of the arm; friction of the hub moves none of them
+  write("arm.toml", kArmOfReport);
+  const ReadPage compared = page_of({"compare", "arm.toml", "--poles", "4", "--zeros", "3",
+                                     "--quick", "--sensor", "hub_angle"});
+  const Json compared_points = compared.block("map-hub-angle")["points"];
+  expect_kelvin_voigt_zeros(compared_points, compared_points[0]["role"], kKelvinVoigt_s);
+
+  ASSERT_EQ(run({"simulate", "arm.toml", "--duration", "4", "--period", "0.002", "--sensor",
+                 "hub_angle", "--noise", "0.001", "--excitation",
+                 "random:rms=0.05,to=60,id=random", "--out", "sim"})
+                .status,
+            0);
+  const ReadPage identified = page_of({"identify", "sim/measurement.toml"});
+  expect_kelvin_voigt_zeros(identified.block("map-hub-angle")["points"], "before", kKelvinVoigt_s);
+}
+
 TEST_F(Report, OfASweepHasItsTracks) {
   write("arm.toml", kArmOfReport);
   const ReadPage page = page_of(

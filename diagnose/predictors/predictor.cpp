@@ -19,6 +19,10 @@ namespace {
 
 using Eigen::Index;
 
+/// Of each run: a search begins with the arm that it was decided by, and a report with the one that
+/// the search ended with.
+constexpr std::size_t kKeptReadings = 1;
+
 std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {
   std::vector<arm::Sensor> sensors;
   for (const auto& channel : record.channels) sensors.push_back(channel.sensor);
@@ -83,8 +87,10 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
       deadline_(deadline),
       models_(std::make_shared<ModalModels>(flexible_modes)),
       filters_(std::make_shared<RunFilters>(experiment.runs.size())),
-      responses_(std::make_shared<ArmResponses>(experiment.runs.size())) {
+      responses_(std::make_shared<ArmResponses>(experiment.runs.size())),
+      shown_(std::make_shared<KeptReadings>()) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
+    shown_->emplace_back(kKeptReadings);
     const auto& [run, data] = experiment.runs[r];
     const auto* record = std::get_if<measured::TimeRecord>(&data);
     if (record == nullptr) continue;
@@ -162,22 +168,25 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   Eigen::VectorXd values = Eigen::VectorXd::Zero(observations_.values.size());
   const Eigen::VectorXd weights = weighing_deviations(observations_);
   const double logged_late_s = std::max(0.0, -response::take_apart(arm).actuator.delay_s);
-  const auto simulate = [&](std::size_t r, const response::ArmSimulator& simulation) {
+  const auto simulated = [&](std::size_t r, const response::ArmSimulator& simulation) {
     const auto [first, count] = stretch(r);
     const Eigen::VectorXd measured = observations_.values.segment(first, count);
     const Eigen::VectorXd deviations = weights.segment(first, count);
     const auto& run = experiment_->runs[r];
     if (!is_driven_by_motion(*experiment_)) {
-      values.segment(first, count) =
-          compare::simulated_run(simulation, run, logged_late_s, measured, deviations, deadline_);
-      return;
+      return compare::simulated_run(simulation, run, logged_late_s, measured, deviations,
+                                    deadline_);
     }
     const PrescribedMotion& hub = experiment_->motions[r].motion;
-    values.segment(first, count) =
-        compare::driven_run(simulation, {hub.angle_rad, hub.velocity_rad_per_s},
-                            hub.acceleration_rad_per_s2, run, measured, deviations, deadline_);
+    return compare::driven_run(simulation, {hub.angle_rad, hub.velocity_rad_per_s},
+                               hub.acceleration_rad_per_s2, run, measured, deviations, deadline_);
   };
-  for_each_time_run(arm, runs, nullptr, simulate);
+  for_each_time_run(
+      arm, runs, nullptr, [&](std::size_t r, const response::ArmSimulator& simulation) {
+        const auto [first, count] = stretch(r);
+        values.segment(first, count) =
+            *(*shown_)[r].of(arm, [&](const arm::Arm&) { return simulated(r, simulation); });
+      });
   predict_other_runs(arm, runs, values);
   return values;
 }

@@ -5,6 +5,7 @@
 #include "diagnose/observations.hpp"
 #include "diagnose/predictors/arm_responses.hpp"
 #include "diagnose/predictors/filtered_run.hpp"
+#include "diagnose/predictors/last_kept.hpp"
 #include "diagnose/predictors/modal_models.hpp"
 #include "diagnose/predictors/noise_model.hpp"
 #include "diagnose/predictors/run_filters.hpp"
@@ -13,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -48,8 +50,9 @@ class Predictor {
 
   /// What the arm shows by output error: one number for each of the experiment's `Observations`,
   /// run after run, of those `runs` alone; the others are 0. `arm` is the experiment's with
-  /// effects; each run sets its own payload. Throws InputError for an arm that cannot be computed.
-  /// Concurrent calls are safe.
+  /// effects; each run sets its own payload. What a `time` run showed last is kept: the same arm is
+  /// not simulated again at once. Throws InputError for an arm that cannot be computed. Concurrent
+  /// calls are safe.
   Eigen::VectorXd operator()(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   /// Measured minus predicted in standard deviations; those of other runs mean nothing. With a
@@ -105,6 +108,8 @@ class Predictor {
     bool is_in_closed_loop = false;
     std::vector<std::size_t> runs;
   };
+  /// One a run, by the arm.
+  using KeptReadings = std::deque<LastKept<arm::Arm, Eigen::VectorXd>>;
   using UseSimulation = std::function<void(std::size_t run, const response::ArmSimulator&)>;
 
   /// With a disturbance of the hub torque where there is `noise`. `use` is called concurrently.
@@ -129,6 +134,7 @@ class Predictor {
   std::shared_ptr<ModalModels> models_;
   std::shared_ptr<RunFilters> filters_;
   std::shared_ptr<ArmResponses> responses_;
+  std::shared_ptr<KeptReadings> shown_;
   std::vector<Condition> conditions_;     // of `time` runs
   std::vector<double> log_determinants_;  // ln |S_0| of each run, with a noise model
 };

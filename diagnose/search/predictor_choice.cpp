@@ -41,7 +41,7 @@ Problem simulated_problem(const Experiment& experiment, const SelectionOptions& 
   if (options.predictor != PredictorKind::output_error) {
     try {
       const Problem loop = Problem(experiment, until_then).until({});
-      const auto left = loop.residuals(loop.as_filed(), loop.estimation_runs());
+      const auto left = loop.until(options.last).residuals(loop.as_filed(), loop.estimation_runs());
       const auto& runs = loop.estimation_runs();
       if (left && misfit(loop.observations(), experiment, *left, runs).relative_error < kDiverged) {
         return loop;
@@ -167,7 +167,8 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
   return std::move(made);
 }
 
-/// Whether the residuals of the arm as filed are noise; false after the deadline.
+/// Whether the residuals of the arm as filed are noise; false after the deadline. The search that
+/// follows begins with what the predictor then keeps.
 bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
   try {
     const Problem in_time = problem.until(deadline);

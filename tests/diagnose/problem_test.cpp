@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <utility>
+#include <vector>
 
 namespace flexarm::diagnose {
 namespace {
@@ -27,6 +28,20 @@ TEST(Problem, LoweredNoiseIsThatOfTheResiduals) {
   EXPECT_TRUE(problem.lower_noise(truth));
   // The level of the noise is known to a tenth of its power.
   EXPECT_NEAR(mean_square(), 1.0, kNoiseKnown);
+}
+
+TEST(Problem, WhatAnArmShowedLastIsThatOfThisArm) {
+  const Experiment experiment = simulated_experiment({});
+  const Problem problem(experiment);
+  arm::Arm other = experiment.arm;
+  other.hub.inertia_kg_m2 *= 1.5;
+  const std::vector<bool> all(experiment.runs.size(), true);
+  const auto shown = [&](const arm::Arm& arm) { return problem.predictor()(arm, all); };
+  const Eigen::VectorXd first = shown(experiment.arm);
+  EXPECT_EQ(shown(experiment.arm), first);
+  EXPECT_NE(shown(other), first);
+  EXPECT_EQ(shown(other), Problem(experiment).predictor()(other, all));
+  EXPECT_EQ(shown(experiment.arm), first);
 }
 
 }  // namespace

@@ -9,9 +9,11 @@
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
+#include "app/time_limit.hpp"
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
 #include "arm/rigid_hub.hpp"
+#include "arm/time_limit.hpp"
 #include "compare/comparison.hpp"
 #include "compare/measured_verdict.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -30,8 +32,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -52,6 +56,7 @@ struct CompareArguments {
   bool quick = false;
   bool full = false;
   bool verbose = false;
+  std::optional<double> time_limit_s = {};
   OutputChoice output;
   ReportChoice report;
 };
@@ -146,6 +151,8 @@ std::string comparison_text(const arm::Arm& arm, const compare::Comparison& comp
   const bool has_models = !comparison.subjects.empty();
   text += describe(comparison.arm) + (has_models ? left_out_of_roots(arm) : "") + "\n";
   text += measured_text(comparison, measured);
+  const std::string out_of_time = report::out_of_time_text(comparison, measured);
+  if (!out_of_time.empty()) text += screen_note(out_of_time, "warning") + "\n";
   if (!has_models) return text;
   if (!arguments.verbose) {
     text += screen_rows(report::roots_overview(comparison), kScreenRows, "--verbose");
@@ -264,19 +271,34 @@ std::string choose_arm(const MeasuredFile& measured, ArmChoice& arm) {
 /// The measurement beside each arm, with a line of progress over the simulated runs.
 std::vector<compare::MeasuredComparison> measured_with_progress(
     const MeasuredFile& measured, const std::vector<arm::Arm>& arms,
-    const std::vector<compare::Comparison>& comparisons, double tolerance_percent) {
+    const std::vector<compare::Comparison>& comparisons, const CompareArguments& arguments,
+    const arm::Deadline& deadline) {
   report::Progress progress("comparing the measurement",
                             std::ssize(arms) * std::ssize(measured.runs));
   std::vector<compare::MeasuredComparison> beside;
   for (std::size_t i = 0; i < arms.size(); ++i) {
-    beside.push_back(beside_models(measured, arms[i], comparisons[i], arms.size() == 1,
+    beside.push_back(beside_models(measured, arms[i], comparisons[i], arms.size() == 1, deadline,
                                    [&] { progress.advance(); }));
-    beside.back().tolerance_percent = tolerance_percent;
+    beside.back().tolerance_percent = arguments.measured_tolerance_percent;
   }
   return beside;
 }
 
+/// Throws InputError where the time limit left nothing of a measurement to compare.
+void require_comparison(const std::vector<compare::MeasuredComparison>& beside,
+                        const CompareArguments& arguments) {
+  for (const auto& measured : beside) {
+    if (measured.runs_out_of_time.empty()) continue;
+    if (compare::judge(measured).agreement != compare::MeasuredAgreement::none) continue;
+    throw arm::InputError(
+        fmt::format("--time-limit = {:g} s: no run could be simulated within the limit; raise it",
+                    arguments.time_limit_s.value_or(0.0)));
+  }
+}
+
 int run_compare(CompareArguments arguments) {
+  const arm::Deadline deadline = arm::deadline_of(
+      arguments.time_limit_s, std::chrono::steady_clock::now(), arm::on_command_line);
   arguments.verbose = arguments.verbose || arguments.full;
 
   const auto measured = arguments.measured_file.empty()
@@ -284,7 +306,8 @@ int run_compare(CompareArguments arguments) {
                             : read_measured_file(arguments.measured_file);
   arm::require_in_range("measured_tolerance", arguments.measured_tolerance_percent, "%",
                         arm::kNotNegative);
-  const auto options = options_of(arguments, measured);
+  auto options = options_of(arguments, measured);
+  options.deadline = deadline;
   const std::string note = choose_arm(measured, arguments.arm);
   const auto arms = arguments.arm.arms();
   for (const auto& arm : arms) {
@@ -303,8 +326,8 @@ int run_compare(CompareArguments arguments) {
   std::vector<report::ComparedArm> results;
   std::vector<measured::NamedContent> files;
   const auto comparisons = compare_with_progress(arms, options);
-  auto beside =
-      measured_with_progress(measured, arms, comparisons, arguments.measured_tolerance_percent);
+  auto beside = measured_with_progress(measured, arms, comparisons, arguments, deadline);
+  require_comparison(beside, arguments);
   for (std::size_t i = 0; i < arms.size(); ++i) {
     text += comparison_text(arms[i], comparisons[i], beside[i], arguments);
     if (!arguments.output.folder.empty()) {
@@ -363,6 +386,7 @@ Command add_compare(CLI::App& program) {
                    "Relative accuracy for which the smallest model is sought")
       ->capture_default_str();
   parser->add_flag("--quick", arguments->quick, "Skip the convergence study");
+  add_time_limit(*parser, arguments->time_limit_s);
   add_verbose(*parser, arguments->verbose,
               "Print every root of each formulation, convergence, mode shapes and responses");
   parser->add_flag("--full", arguments->full,

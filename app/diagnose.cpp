@@ -8,6 +8,7 @@
 #include "app/report_choice.hpp"
 #include "app/screen.hpp"
 #include "app/standard_output.hpp"
+#include "app/time_limit.hpp"
 #include "arm/input_error.hpp"
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/diagnosis_request.hpp"
@@ -285,8 +286,7 @@ Command add_diagnose(CLI::App& program) {
             "reported as accepted, and exclude no channel and no run");
   add_verbose(*parser, arguments->verbose,
               "Print evidence, residual analysis, NRMSE of each channel, formulations");
-  parser->add_option("--time-limit", arguments->request.time_limit_s,
-                     "Seconds after which the search ends with the best so far");
+  add_time_limit(*parser, arguments->request.time_limit_s);
   parser->add_option("--max-causes", arguments->request.most_causes, "The most causes to name")
       ->capture_default_str();
   parser

@@ -8,7 +8,9 @@
 #include "app/screen.hpp"
 #include "app/spectrum_choice.hpp"
 #include "app/standard_output.hpp"
+#include "app/time_limit.hpp"
 #include "arm/input_error.hpp"
+#include "arm/time_limit.hpp"
 #include "compare/identification.hpp"
 #include "compare/identification_task.hpp"
 #include "measured/files/atomic_file.hpp"
@@ -25,6 +27,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -40,6 +43,7 @@ struct IdentifyArguments {
   std::string file;
   compare::IdentificationRequest request;
   bool no_fit = false;
+  std::optional<double> time_limit_s = {};
   OutputChoice output;
   bool verbose = false;
   ReportChoice report;
@@ -177,9 +181,12 @@ void write_files(const IdentifyArguments& arguments, const std::string& measurem
 }
 
 int run_identify(const IdentifyArguments& arguments) {
+  const arm::Deadline deadline = arm::deadline_of(
+      arguments.time_limit_s, std::chrono::steady_clock::now(), arm::on_command_line);
   auto request = arguments.request;
   request.fit = !arguments.no_fit;
   auto task = compare::read_identification_task(arguments.file, request);
+  task.options.deadline = deadline;
   prepare(arguments, task.measurement);
   std::vector<measured::MeasuredRun> recorded;  // the report shows them
   if (arguments.report.is_given()) recorded = task.runs;
@@ -251,6 +258,7 @@ Command add_identify(CLI::App& program) {
                      "Total inertia I_T [kg m^2] for slopes and gains; default: estimated from the "
                      "rigid-body mode");
   parser->add_flag("--no-fit", arguments->no_fit, "Spectra, peaks and circle fits only");
+  add_time_limit(*parser, arguments->time_limit_s);
   add_verbose(*parser, arguments->verbose,
               "Print settings with reasons, every method and sensor, gains and residuals");
   add_output_choice(*parser, arguments->output,

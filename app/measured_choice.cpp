@@ -103,6 +103,7 @@ MeasuredFile read_measured_file(const std::string& file) {
 
 compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
                                           const compare::Comparison& comparison, bool alone,
+                                          const arm::Deadline& deadline,
                                           const std::function<void()>& after_run) {
   compare::MeasuredComparison all;
   for (std::size_t i = 0; i < measured.runs.size(); ++i) {
@@ -113,7 +114,11 @@ compare::MeasuredComparison beside_models(const MeasuredFile& measured, const ar
     if (!is_of_arm && !(is_simulated && alone)) {
       all.runs_left_out.push_back(run.id);
     } else if (is_simulated) {
-      all.runs.push_back(compare::run_beside_simulation(whole, {run, data}));
+      try {
+        all.runs.push_back(compare::run_beside_simulation(whole, {run, data}, deadline));
+      } catch (const arm::Cancelled&) {
+        all.runs_out_of_time.push_back(run.id);
+      }
     } else if (const auto* table = std::get_if<measured::ModalTable>(&data)) {
       auto rows = compare::beside_model(*table, comparison);
       if (auto shapes = compare::correlate_shapes(rows, comparison)) {

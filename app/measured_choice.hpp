@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/deadline.hpp"
 #include "compare/measured_responses.hpp"
 #include "measured/files/measurement.hpp"
 #include "measured/files/run_data.hpp"
@@ -31,10 +32,11 @@ MeasuredFile read_measured_file(const std::string& file);
 
 /// The runs of an arm beside its comparison: those without a payload, those with the payload of
 /// the arm, and, where the arm is `alone`, `time` runs with any payload, which they are simulated
-/// with. `whole` has all effects, which measured responses and signals contain. `after_run` is
-/// called after each run.
+/// with. `whole` has all effects, which measured responses and signals contain. After the deadline
+/// nothing is simulated. `after_run` is called after each run.
 compare::MeasuredComparison beside_models(const MeasuredFile& measured, const arm::Arm& whole,
                                           const compare::Comparison& comparison, bool alone,
+                                          const arm::Deadline& deadline,
                                           const std::function<void()>& after_run);
 
 }  // namespace flexarm::app

@@ -20,7 +20,7 @@ const std::vector<Group>& groups() {
       {"compare",
        "Comparison",
        {"--measured", "--measured-tolerance", "--sensor", "--poles", "--zeros", "--tolerance",
-        "--accuracy", "--quick"}},
+        "--accuracy", "--quick", "--time-limit"}},
       {"modes", "Modes", {"--modes", "--sensor", "--certificate"}},
       {"response",
        "Response",

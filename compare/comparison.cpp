@@ -314,6 +314,8 @@ Comparison compare(const arm::Arm& whole, const Options& options) {
   }
   for (const auto& refinement : refinements) {
     for (const auto& reference : references) {
+      comparison.are_refinements_complete = !arm::is_over(options.deadline);
+      if (!comparison.are_refinements_complete) return comparison;
       auto curves =
           refine(arm, refinement, reference.family, reference.s_rad_per_s, options.wanted_accuracy);
       std::ranges::move(curves, std::back_inserter(comparison.refinements));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/deadline.hpp"
 #include "arm/sensor.hpp"
 #include "compare/features.hpp"
 #include "compare/finding.hpp"
@@ -37,6 +38,7 @@ struct Options {
   double response_tolerance = 1e-7;  ///< responses agree when |dG|/|G| <= response_tolerance
   double wanted_accuracy = 1e-9;     ///< the cheapest setting reaches error <= wanted_accuracy
   bool refinements = true;           ///< run the refinement series
+  arm::Deadline deadline = {};       ///< no further refinement is begun after it
   int response_points = 800;         ///< frequencies of each response, 2 or more
   /// Called after each step with the steps done and the steps there are.
   std::function<void(int done, int total)> progress;
@@ -83,6 +85,7 @@ struct Comparison {
   std::vector<ResponseComparison> responses;  ///< one a sensor
   double wanted_accuracy = 0.0;               ///< as in Options
   std::vector<RefinementCurve> refinements;
+  bool are_refinements_complete = true;  ///< else the deadline ended the series
   std::vector<std::string> basis_notes;  ///< why a basis of assumed_modes is slow on this arm
   std::vector<Finding> findings;  ///< every pair of subjects in every root, shape and response
   Verdict verdict;

@@ -53,6 +53,8 @@ struct MeasuredComparison {
   std::vector<ShapeCorrelation> shapes;         ///< one a table that has any
   std::vector<MeasuredTimeRun> runs = {};       ///< of kind `time`
   std::vector<std::string> runs_left_out = {};  ///< ids, of another payload than the arm's
+  /// Ids of `time` runs that the deadline left no time to simulate.
+  std::vector<std::string> runs_out_of_time = {};
   /// Largest difference of what agrees without a standard deviation (compare/measured_verdict.hpp).
   double tolerance_percent = kMeasuredTolerance_percent;
 };

@@ -74,7 +74,9 @@ std::vector<MeasuredSignal> signals_of(const measured::TimeRecord& record, bool 
 
 }  // namespace
 
-MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::MeasuredRun& run) try {
+MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::MeasuredRun& run,
+                                      const arm::Deadline& deadline) try {
+  arm::require_time(deadline);
   const auto& record = std::get<measured::TimeRecord>(run.data);
   arm::Arm loaded = arm;
   if (run.run.payload) loaded.payload = *run.run.payload;
@@ -122,7 +124,7 @@ MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::Measu
     }
   }
   const Eigen::VectorXd simulated =
-      simulated_run(simulation, run, logged_late_s, measured, deviations, {});
+      simulated_run(simulation, run, logged_late_s, measured, deviations, deadline);
   for (std::size_t c = 0; c < compared.signals.size(); ++c) {
     const auto values = simulated.segment(static_cast<Index>(c) * samples, samples);
     compared.signals[c].simulated.assign(values.begin(), values.end());

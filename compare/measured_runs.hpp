@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/arm.hpp"
+#include "arm/deadline.hpp"
 #include "measured/files/time_record.hpp"
 #include "measured/run_identification.hpp"
 
@@ -38,8 +39,9 @@ struct MeasuredTimeRun {
 /// Simulates the run by exact_tf with as many modes as the recorded torque asks for
 /// (response/truncation.hpp), 40 at most: from rest or from the most likely initial
 /// state, driven by the recorded torque, or in closed loop by the recorded reference. The run's
-/// payload takes the place of the arm's. Throws InputError, with the run's id in front, as
-/// response::ArmSimulator does.
-MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::MeasuredRun& run);
+/// payload takes the place of the arm's. Throws InputError, with the run's id in front, and
+/// arm::Cancelled as compare::simulated_run does.
+MeasuredTimeRun run_beside_simulation(const arm::Arm& arm, const measured::MeasuredRun& run,
+                                      const arm::Deadline& deadline = {});
 
 }  // namespace flexarm::compare

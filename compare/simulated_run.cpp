@@ -54,7 +54,7 @@ Eigen::MatrixXd from_likely_state(const response::ArmSimulator& simulation,
     arm::require_time(deadline);
     const Eigen::VectorXd further = state + length * estimator.step(left(made), state);
     const Eigen::MatrixXd there =
-        simulation.readings(torque_N_m, initial.known + initial.unknown * further);
+        simulation.readings(torque_N_m, initial.known + initial.unknown * further, deadline);
     const double before = estimator.cost(left(made), state);
     const double after = estimator.cost(left(there), further);
     if (after < before) {
@@ -122,13 +122,14 @@ Eigen::VectorXd logged(const std::vector<double>& torque_N_m, double late_sample
 }
 
 Eigen::VectorXd in_closed_loop(const response::ArmSimulator& simulation,
-                               const measured::MeasuredRun& run, double logged_late_s) {
+                               const measured::MeasuredRun& run, double logged_late_s,
+                               const arm::Deadline& deadline) {
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const bool is_free = run.run.initial == measured::InitialState::free;
   const Eigen::VectorXd initial =
       is_free ? rigid_motion(simulation, record, first_hub_motion(record)) : Eigen::VectorXd();
-  const auto made =
-      simulation.closed_loop_readings({*run.run.controller, record.reference.values}, initial);
+  const auto made = simulation.closed_loop_readings({*run.run.controller, record.reference.values},
+                                                    initial, deadline);
   Eigen::VectorXd shown(made.readings.size() + std::ssize(made.torque_N_m));
   shown << made.readings.reshaped(),
       logged(made.torque_N_m, logged_late_s / measured::sampling_period_s(record));
@@ -141,15 +142,15 @@ Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
                               const measured::MeasuredRun& run, double logged_late_s,
                               const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations,
                               const arm::Deadline& deadline) {
-  if (run.run.controller) return in_closed_loop(simulation, run, logged_late_s);
+  if (run.run.controller) return in_closed_loop(simulation, run, logged_late_s, deadline);
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const auto& torque_N_m = record.torque_N_m;
   if (run.run.initial != measured::InitialState::free) {
-    return simulation.readings(torque_N_m).reshaped();
+    return simulation.readings(torque_N_m, {}, deadline).reshaped();
   }
   const InitialStates initial{rigid_motion(simulation, record, first_hub_motion(record)),
                               simulation.resolved_states()};
-  const Eigen::MatrixXd readings = simulation.readings(torque_N_m, initial.known);
+  const Eigen::MatrixXd readings = simulation.readings(torque_N_m, initial.known, deadline);
   return from_likely_state(simulation, torque_N_m, initial, readings, measured, deviations,
                            deadline)
       .reshaped();
@@ -162,7 +163,7 @@ Eigen::VectorXd driven_run(const response::ArmSimulator& simulation, const Eigen
   const auto& record = std::get<measured::TimeRecord>(run.data);
   const InitialStates initial{rigid_motion(simulation, record, hub),
                               simulation.resolved_states_of_resting_hub()};
-  Eigen::MatrixXd readings = simulation.readings(acceleration_rad_per_s2, initial.known);
+  Eigen::MatrixXd readings = simulation.readings(acceleration_rad_per_s2, initial.known, deadline);
   if (run.run.initial == measured::InitialState::free) {
     readings = from_likely_state(simulation, acceleration_rad_per_s2, initial, readings, measured,
                                  deviations, deadline);

@@ -19,8 +19,8 @@ namespace flexarm::compare {
 /// closed loop it is the rigid arm's, with the angle and velocity of the hub that the first
 /// readings show: the controller takes out what vibrates at the start.
 ///
-/// Throws InputError as response::ArmSimulator::readings and closed_loop_readings; arm::Cancelled
-/// where the search for that state is beyond the deadline.
+/// Throws InputError and arm::Cancelled as response::ArmSimulator::readings and
+/// closed_loop_readings.
 Eigen::VectorXd simulated_run(const response::ArmSimulator& simulation,
                               const measured::MeasuredRun& run, double logged_late_s,
                               const Eigen::VectorXd& measured, const Eigen::VectorXd& deviations,

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -23,9 +22,6 @@ namespace {
 
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
-
-/// What a report can do without is computed until so long after the time limit.
-constexpr std::chrono::seconds kReportTime{1};
 
 /// A candidate as it is, not fitted.
 Fit evaluated(const Problem& problem, const Candidate& candidate) {

@@ -11,6 +11,7 @@
 #include "diagnose/unknown/missing_force.hpp"
 #include "diagnose/verdict.hpp"
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -105,8 +106,12 @@ struct Diagnosis {
 
 /// Diagnoses an experiment by these hypotheses. After options.deadline: by what had been fitted; a
 /// notice names what the report lacks, as the further runs. What was fitted is always evaluated on
-/// all data, once by the arm as filed and once by what is reported.
+/// all data, once by the arm as filed and once by what is reported. Throws Cancelled after
+/// options.last where not even the arm as filed has been simulated.
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
+
+/// What a report can do without is computed until so long after the deadline.
+inline constexpr std::chrono::seconds kReportTime{1};
 
 }  // namespace flexarm::diagnose

@@ -1,7 +1,6 @@
 #include "diagnose/diagnosis_request.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/range.hpp"
 #include "diagnose/search/hypothesis_choice.hpp"
 
 #include <fmt/format.h>
@@ -11,11 +10,6 @@
 namespace flexarm::diagnose {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Limits beyond this are none: a clock counts no further.
-constexpr double kLongestLimit_s = 1e9;
 
 /// Empty: by evidence.
 std::optional<PredictorKind> chosen_predictor(const DiagnosisRequest& request) {
@@ -31,12 +25,8 @@ std::optional<PredictorKind> chosen_predictor(const DiagnosisRequest& request) {
 
 }  // namespace
 
-Deadline deadline_of(const DiagnosisRequest& request, Clock::time_point begun) {
-  if (!request.time_limit_s) return std::nullopt;
-  arm::require_in_range(request.spelled("time-limit"), *request.time_limit_s, "s", arm::kPositive);
-  if (*request.time_limit_s > kLongestLimit_s) return std::nullopt;
-  const std::chrono::duration<double> limit(*request.time_limit_s);
-  return begun + std::chrono::duration_cast<Clock::duration>(limit);
+Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock::time_point begun) {
+  return arm::deadline_of(request.time_limit_s, begun, request.spelled);
 }
 
 Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request,
@@ -69,7 +59,16 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request
   options.most_causes = request.most_causes;
   options.predictor = chosen_predictor(request);
   options.deadline = deadline;
-  Diagnosis diagnosis = diagnose(experiment, hypotheses_left, options, progress);
+  if (deadline) options.last = *deadline + kReportTime;
+  Diagnosis diagnosis;
+  try {
+    diagnosis = diagnose(experiment, hypotheses_left, options, progress);
+  } catch (const Cancelled&) {
+    throw arm::InputError(
+        fmt::format("{} = {:g} s: the arm as filed could not be simulated within the limit; raise "
+                    "it",
+                    request.spelled("time-limit"), request.time_limit_s.value_or(0.0)));
+  }
   diagnosis.excluded = request.excluded;
   diagnosis.time_limit_s = request.time_limit_s;
   return diagnosis;

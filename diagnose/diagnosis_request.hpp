@@ -1,6 +1,7 @@
 #pragma once
 
 #include "arm/option_name.hpp"
+#include "arm/time_limit.hpp"
 #include "diagnose/diagnosis.hpp"
 
 #include <chrono>
@@ -22,7 +23,7 @@ struct DiagnosisRequest {
   arm::OptionSpelling spelled = arm::on_command_line;
 };
 
-/// When a diagnosis that began then must end. Throws InputError for a limit that is not above 0.
+/// The end of a diagnosis that began then (arm::deadline_of).
 Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock::time_point begun);
 
 /// The experiment of a recording, with the accepted faults. Throws InputError for a check that
@@ -33,8 +34,9 @@ Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& r
 /// Throws InputError for a number of causes below 1 and an unknown predictor.
 void require_valid(const DiagnosisRequest& request);
 
-/// The diagnosis that is asked for. Throws InputError as `require_valid`, and for an effect that is
-/// unknown or that these runs do not show.
+/// The diagnosis that is asked for. Throws InputError as `require_valid`, for an effect that is
+/// unknown or that these runs do not show, and where kReportTime after the deadline not even the
+/// arm as filed has been simulated.
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request,
                    const Deadline& deadline, const DiagnosisProgress& progress = {});
 

@@ -29,6 +29,8 @@ constexpr double kMostZeroDamping = 0.25;
 constexpr double kSurelyBelow = 3.0;
 /// Share of the work that a run's spectra are, beside 1 for the fit of each.
 constexpr double kSpectraShare = 0.2;
+/// Why a run or a fit is refused at the deadline.
+constexpr const char* kNoTimeLeft = "the time limit left no time for it";
 
 /// Circles of a response that was given, about its peaks.
 void read_circles(RunIdentification& made, const CircleSettings& settings) {
@@ -293,7 +295,8 @@ void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs,
         fitted.runs, [&](std::size_t r) { return studied[r].decay_begins_s.has_value(); });
     own.rigid_body = own.rigid_body && (!decays || has_hub_sensor(records));
     fitted.fit = fit_modes(records, own);
-    if (decays && std::ranges::none_of(fitted.fit.poles, &FittedPole::is_mode)) {
+    if (decays && !fitted.fit.cancelled &&
+        std::ranges::none_of(fitted.fit.poles, &FittedPole::is_mode)) {
       throw arm::InputError("no oscillation that decays is above the noise");
     }
   }
@@ -329,7 +332,9 @@ std::string doubt_of(const RunsFit& fit) {
 
 Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptions& options) {
   Identification made;
-  const auto findings = check_records(runs, options.arms);
+  const arm::Deadline end_of_checks = arm::halfway(options.deadline);
+  const auto findings = check_records(runs, options.arms, end_of_checks);
+  made.are_checks_complete = !arm::is_over(end_of_checks);
   const auto count = static_cast<double>(runs.size());
   const double spectra_share = options.fit ? kSpectraShare : 1.0;
   const auto go_on = [&](const std::string& what, double fraction) {
@@ -340,6 +345,7 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
     if (!go_on("spectra of " + run.run.id, spectra_share * done)) return made;
     RunIdentification studied{.run = run.run, .findings = findings[made.runs.size()]};
     try {
+      if (arm::is_over(options.deadline)) throw arm::InputError(kNoTimeLeft);
       if (auto* time = std::get_if<TimeRecord>(&run.data)) {
         study_time_run(*time, options, studied);
       } else if (const auto* frequency = std::get_if<FrequencyRecord>(&run.data)) {
@@ -366,15 +372,18 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
     ModalFitOptions own = options.modal_fit;
     own.progress = [&](double fraction) {
       const double all = (static_cast<double>(g) + fraction) / static_cast<double>(groups.size());
-      return go_on("fit of " + made.runs[group.runs.front()].run.id,
+      return !arm::is_over(options.deadline) &&
+             go_on("fit of " + made.runs[group.runs.front()].run.id,
                    spectra_share + (1.0 - spectra_share) * all);
     };
     try {
+      if (arm::is_over(options.deadline)) throw arm::InputError(kNoTimeLeft);
       fit(group, runs, made.runs, own, options.total_inertia_kg_m2);
+      if (group.fit.cancelled && arm::is_over(options.deadline)) throw arm::InputError(kNoTimeLeft);
     } catch (const arm::InputError& error) {
       group.refusal = error.what();
     }
-    if (group.fit.cancelled) return made;
+    if (group.fit.cancelled && group.refusal.empty()) return made;
     if (group.refusal.empty()) {
       read_off({Method::rational_fit, ids_of(group, made.runs), std::nullopt, group.payload, {}},
                modal_table(group.fit, kMostZeroDamping), group.hub_held, made.readings);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/deadline.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/checks/run_check.hpp"
 #include "measured/files/run_data.hpp"
@@ -95,6 +96,7 @@ struct RunsFit {
 std::string doubt_of(const RunsFit& fit);
 
 struct Identification {
+  bool are_checks_complete = true;      ///< else the deadline left no time for all data checks
   std::vector<RunIdentification> runs;  ///< as they were given
   std::vector<RunsFit> fits;
   std::vector<ModalReading> readings;  ///< run by run, then the fits
@@ -110,6 +112,8 @@ struct IdentificationOptions {
   ModalFitOptions modal_fit = {};  ///< `torque_hold` and `initial` are each run's own
   /// For hub slopes and gains; empty: as the rigid body's motion has it.
   std::optional<double> total_inertia_kg_m2 = {};
+  /// Data checks end half-way to it. What is not done by then is refused: spectra of runs, fits.
+  arm::Deadline deadline = {};
   /// Called now and then with what is being done and the fraction of all work done; false ends it,
   /// with what there is until then.
   std::function<bool(std::string_view what, double fraction)> progress = {};

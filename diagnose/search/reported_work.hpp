@@ -33,8 +33,9 @@ class ReportedWork {
 
   double done() const { return done_; }  ///< the fraction that was told last
   std::string_view what() const { return what_; }
-  /// The deadline, and not the progress function, ended it.
-  bool is_out_of_time() const { return is_out_of_time_; }
+  /// Where Cancelled ended it: the deadline did, and not the progress function. Evaluations that
+  /// have the same deadline throw it as well.
+  bool is_out_of_time() const { return !is_cancelled_; }
   /// For what must still be done after it.
   void lift_deadline() { deadline_.reset(); }
 
@@ -65,15 +66,13 @@ class ReportedWork {
 
  private:
   void ask() const {
-    if (progress_ && !progress_(what_, done_)) throw Cancelled{};
-    if (!is_over(deadline_)) return;
-    is_out_of_time_ = true;
-    throw Cancelled{};
+    is_cancelled_ = is_cancelled_ || (progress_ && !progress_(what_, done_));
+    if (is_cancelled_ || is_over(deadline_)) throw Cancelled{};
   }
 
   const DiagnosisProgress progress_;
   Deadline deadline_;
-  mutable std::atomic<bool> is_out_of_time_ = false;
+  mutable std::atomic<bool> is_cancelled_ = false;
   mutable std::mutex telling_;
   std::string_view what_;
   std::atomic<double> done_ = 0.0;

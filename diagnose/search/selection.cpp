@@ -91,7 +91,8 @@ class Search {
     problem_ = problem_.until({});
     if (made.nothing.fit.residuals.size() == 0) {
       made.end->untried = labels_with({}, general_.others());
-      made.nothing = explain(problem_, fit(problem_, problem_.as_filed(), {.most_steps = 0}));
+      const Problem in_time = problem_.until(options_.last);
+      made.nothing = explain(in_time, fit(in_time, in_time.as_filed(), {.most_steps = 0}));
       made.chosen = made.nothing;
     }
     if (made.chosen.fit.candidate.effects.empty()) {
@@ -439,6 +440,7 @@ Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
   try {
     return Search(problem, hypotheses, options, progress).run();
   } catch (const Cancelled&) {
+    require_time(options.last);
     Selection made{problem};
     made.cancelled = true;
     return made;

@@ -61,7 +61,8 @@ struct Selection {
 /// Looks for the causes of what `problem` shows beyond noise: each hypothesis by itself, scanned
 /// over its whole range and refitted; sets of two and more (set_search.hpp); each of several
 /// exchanged for another while that fits better, and left out.
-/// After the deadline: the best so far, of what was fitted to all data.
+/// After the deadline: the best so far, of what was fitted to all data; where that is nothing, the
+/// arm as filed. Throws Cancelled after options.last.
 /// The problem that comes back has the noise level that the best single leaves to be seen, and
 /// torques corrected where their timing explains what is left.
 Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,

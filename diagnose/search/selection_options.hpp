@@ -84,6 +84,8 @@ struct SelectionOptions {
 
   /// The search ends here with the best so far.
   Deadline deadline = {};
+  /// Where not even the arm as filed has been simulated by then, Cancelled is thrown.
+  Deadline last = {};
 
   // An effect is named beside others only where all of these hold (admission.hpp).
   /// Delta BIC (misfit.hpp) without it >= this.

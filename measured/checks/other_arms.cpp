@@ -29,8 +29,9 @@ constexpr double kMuchMore = 3.0;
 class JudgedRecord {
  public:
   JudgedRecord(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
-               double period_s, bool from_rest, const std::vector<DataFinding>& faults)
-      : signals_(signals.begin(), signals.end()), usable_(usable) {
+               double period_s, bool from_rest, const std::vector<DataFinding>& faults,
+               const arm::Deadline& deadline)
+      : signals_(signals.begin(), signals.end()), usable_(usable), deadline_(deadline) {
     values_.resize(signals_.size());
     for (std::size_t i = 0; i < signals_.size(); ++i) {
       const auto part = signals[i].values.first(std::min(signals[i].values.size(), kMostJudged));
@@ -49,7 +50,9 @@ class JudgedRecord {
     transforms_ = transform(signals_, period_s, from_rest);
   }
 
+  /// Throws Cancelled after the deadline.
   double distance(const DescribedArm& arm) const {
+    arm::require_time(deadline_);
     return arm ? described_distance(signals_, usable_, transforms_, arm, CountedBlocks::coherent)
                : 1.0;
   }
@@ -69,6 +72,7 @@ class JudgedRecord {
   std::vector<CheckedSignal> signals_;
   std::vector<std::vector<double>> values_;
   std::vector<bool> usable_;
+  arm::Deadline deadline_;
   Transforms transforms_;
 };
 
@@ -113,8 +117,9 @@ struct Explaining {
 /// The arm as filed, by the simulation of its variations: distances of both are compared.
 Explained as_filed(const Explaining& one) { return {{}, one.record.distance(one.arms.with({}))}; }
 
+/// After the deadline true: what is not decided is not found.
 bool explains_more(const Explaining& recorded, const Explaining& mended, bool is_sign,
-                   double nearer) {
+                   double nearer) try {
   const Explained filed = as_filed(recorded);
   const Explained mended_filed = as_filed(mended);
   const Explained varied = with_one_more(recorded.record, recorded.arms, filed);
@@ -124,6 +129,8 @@ bool explains_more(const Explaining& recorded, const Explaining& mended, bool is
   const Explained mended_varied = with_one_more(mended.record, mended.arms, mended_filed);
   return with_one_more(recorded.record, recorded.arms, varied).distance <
          mended_varied.distance - nearer;
+} catch (const arm::Cancelled&) {
+  return true;
 }
 
 ArmVariations variations_for(const DataCheckOptions& options, std::span<const double> torque_N_m,
@@ -138,8 +145,8 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
                              const std::vector<DataFinding>& found,
                              const DataCheckOptions& options) {
   if (!options.described || !options.variations) return false;
-  const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
-  const JudgedRecord mended(signals, usable, period_s, from_rest, found);
+  const JudgedRecord recorded(signals, usable, period_s, from_rest, {}, options.deadline);
+  const JudgedRecord mended(signals, usable, period_s, from_rest, found, options.deadline);
   const ArmVariations variations = variations_for(options, signals[0].values, period_s);
   const bool is_scaled_torque = std::ranges::any_of(found, [](const DataFinding& one) {
     return one.fault == Fault::wrong_scale && one.channel == "torque";
@@ -154,7 +161,7 @@ bool other_arm_explains_more(std::span<const CheckedSignal> signals,
                              const std::vector<bool>& usable, double period_s, bool from_rest,
                              const DataCheckOptions& options, const DataCheckOptions& mended) {
   if (!options.described || !options.variations || !mended.described) return false;
-  const JudgedRecord recorded(signals, usable, period_s, from_rest, {});
+  const JudgedRecord recorded(signals, usable, period_s, from_rest, {}, options.deadline);
   const auto& torque_N_m = signals[0].values;
   return explains_more({recorded, variations_for(options, torque_N_m, period_s)},
                        {recorded, variations_for(mended, torque_N_m, period_s)}, false, kNearerArm);

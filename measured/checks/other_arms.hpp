@@ -16,7 +16,8 @@ namespace flexarm::measured {
 /// signals are coherent. The best
 /// single variation is compared with the described arm, and the best two with it and the best one:
 /// each side has as many numbers to choose. Against a sign a single variation that brings the
-/// arm three times nearer than the finding does is enough. False without variations.
+/// arm three times nearer than the finding does is enough. False without variations, true where
+/// options.deadline leaves it undecided.
 bool other_arm_explains_more(std::span<const CheckedSignal> signals,
                              const std::vector<bool>& usable, double period_s, bool from_rest,
                              const std::vector<DataFinding>& found,

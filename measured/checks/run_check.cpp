@@ -42,13 +42,16 @@ constexpr double kFarthest = 0.955;
 /// A run beside the described arm with any payload.
 class PayloadSearch {
  public:
-  PayloadSearch(const CheckedRun& run, const DescribedArms& arms)
+  PayloadSearch(const CheckedRun& run, const DescribedArms& arms, const arm::Deadline& deadline)
       : run_(run),
         arms_(arms),
+        deadline_(deadline),
         felt_kg_(kFelt * arms.beam_mass_kg),
         compared_(signals_of(run, kMostComparedSamples)) {}
 
+  /// Throws Cancelled after the deadline.
   double distance_at(double factor) const {
+    arm::require_time(deadline_);
     return described_distance(compared_.signals, compared_.usable, compared_.transforms,
                               arms_.with(payload_at(factor)).described);
   }
@@ -56,8 +59,10 @@ class PayloadSearch {
   /// Whether another arm with the stated payload explains the run better than this payload does.
   bool is_of_other_arm(double factor) const {
     const auto& [signals, usable, transforms] = compared_;
+    DataCheckOptions stated = arms_.with(run_.payload);
+    stated.deadline = deadline_;
     return other_arm_explains_more(signals, usable, transforms.period_s, transforms.from_rest,
-                                   arms_.with(run_.payload), arms_.with(payload_at(factor)));
+                                   stated, arms_.with(payload_at(factor)));
   }
 
   /// The payload whose mass is felt as `factor` times the stated one.
@@ -71,6 +76,7 @@ class PayloadSearch {
  private:
   const CheckedRun& run_;
   const DescribedArms& arms_;
+  arm::Deadline deadline_;
   double felt_kg_ = 0.0;
   RunSignals compared_;
 };
@@ -138,14 +144,16 @@ bool is_comparable(const CheckedRun& run) {
          run.record->time_s.size() >= kFewestComparedSamples;
 }
 
+/// Nothing after the deadline: what is not decided is not found.
 std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
-                                       const DescribedArms& arms) {
+                                       const DescribedArms& arms,
+                                       const arm::Deadline& deadline) try {
   std::vector<std::size_t> compared;
   std::vector<PayloadSearch> searches;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (!is_comparable(runs[i])) continue;
     compared.push_back(i);
-    searches.emplace_back(runs[i], arms);
+    searches.emplace_back(runs[i], arms, deadline);
   }
   if (compared.size() < 2 || std::ranges::all_of(searches, is_nearest_as_stated)) return {};
   std::vector<Nearest> found;
@@ -167,14 +175,19 @@ std::vector<RunFinding> check_payloads(const std::vector<CheckedRun>& runs,
             fmt::format("the payload is {:.3g} kg by the response to the torque, not {:.4g} kg as "
                         "stated, or the arm file is wrong; the other runs agree with theirs",
                         mass_kg, run.payload.mass_kg)}}};
+} catch (const arm::Cancelled&) {
+  return {};
 }
 
 }  // namespace
 
-std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms) {
+std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms,
+                                   const arm::Deadline& deadline) {
   std::vector<RunFinding> findings = check_noise_between_runs(runs);
   if (!arms.with || arms.beam_mass_kg == 0.0) return findings;
-  for (auto& finding : check_payloads(runs, arms)) findings.push_back(std::move(finding));
+  for (auto& finding : check_payloads(runs, arms, deadline)) {
+    findings.push_back(std::move(finding));
+  }
   return findings;
 }
 
@@ -198,7 +211,7 @@ std::vector<std::vector<DataFinding>> check_records(std::span<const MeasuredRun>
   }
   std::vector<std::vector<DataFinding>> findings(runs.size());
   const auto compared =
-      arm::is_over(deadline) ? std::vector<RunFinding>() : check_runs(checked, arms);
+      arm::is_over(deadline) ? std::vector<RunFinding>() : check_runs(checked, arms, deadline);
   for (std::size_t i = 0; i < checked.size(); ++i) findings[at[i]] = std::move(checked[i].findings);
   for (const auto& [run, finding] : compared) findings[at[run]].push_back(finding);
   return findings;

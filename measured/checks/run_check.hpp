@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/deadline.hpp"
 #include "arm/payload.hpp"
 #include "measured/checks/data_check.hpp"
 #include "measured/files/run_data.hpp"
@@ -42,7 +43,9 @@ struct RunFinding {
 ///
 /// Runs with a finding in their times are left out, and channels with one. For payloads, runs with
 /// one in their torque are left out as well.
-std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms);
+/// What the deadline leaves undecided is not found.
+std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms,
+                                   const arm::Deadline& deadline = {});
 
 /// The findings of `check_data` and `check_runs`, a list a run; empty for what is no `time` run.
 /// After the deadline nothing more is checked.

@@ -319,6 +319,8 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
   fit.chart = chart_of(task, options);
   const bool several_runs = task.in_time && task.all.size() > 1;
   const double middle = several_runs ? kHalfWay : 1.0;
+  ProjectionOptions projection{.most_iterations = options.most_iterations};
+  if (options.progress) projection.go_on = [&] { return options.progress(1.0); };
   Attempt found = search_and_fit(task, options, fit.chart, kAfterChart, middle);
   BlockFit& best = found.best;
   if (several_runs && !best.cancelled && weigh_runs(best, task.all)) {
@@ -327,19 +329,18 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     // The first weights count what a loud run bent the fit of a quiet one by.
     for (int round = 0; round < kWeighings && !best.cancelled; ++round) {
       weigh_runs(best, task.all);
-      best = fit_blocks(task.all, task.sensors, best.blocks, found.choices,
-                        {.most_iterations = options.most_iterations});
+      best = fit_blocks(task.all, task.sensors, best.blocks, found.choices, projection);
     }
   }
   fit.order_trials = found.trials;
   fit.order_reason = found.reason;
   fit.aliases = found.aliases;
   fit.cancelled = best.cancelled;
+  if (fit.cancelled) return fit;
   ResidualStudy study = study_residuals(task.all, best);
-  if (!best.cancelled && task.forced && leaves_more(study, kOnlyRounding)) {
+  if (task.forced && leaves_more(study, kOnlyRounding)) {
     ModesBeyond beyond = with_modes_beyond(best, found.choices, fit.band);
     beyond.choices.jumps = options.torque_hold == TorqueHold::zero;
-    const ProjectionOptions projection{.most_iterations = options.most_iterations};
     best = fit_blocks(task.all, task.sensors, beyond.blocks, beyond.choices, projection);
     BlockSet ascending = best.blocks;
     sort_flexible(ascending);
@@ -348,6 +349,7 @@ ModalFit fit_task(ModalFitTask task, const ModalFitOptions& options) {
     }
     study = study_residuals(task.all, best);
   }
+  fit.cancelled = best.cancelled;
   fit.iterations = best.iterations;
   fit.converged = best.converged || !leaves_more(study, kBelowAnyNoise);
   fit.blocks = best.blocks;

@@ -300,6 +300,7 @@ Json compared_json(const ComparedArm& compared) {
       {"roots", roots_json(comparison)},
       {"counts", counts_json(comparison)},
       {"refinements", refinements_json(comparison)},
+      {"refinements_complete", comparison.are_refinements_complete},
       {"basis_notes", comparison.basis_notes},
       {"shapes", shapes_json(comparison)},
       {"responses", responses_json(comparison)},
@@ -307,6 +308,7 @@ Json compared_json(const ComparedArm& compared) {
       {"measured_responses", measured_responses_json(compared.measured.responses)},
       {"measured_runs", measured_runs_json(compared.measured.runs)},
       {"runs_left_out", compared.measured.runs_left_out},
+      {"runs_out_of_time", compared.measured.runs_out_of_time},
       {"mac", mac_json(compared.measured.shapes)},
       {"findings", findings},
   };

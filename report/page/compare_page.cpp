@@ -93,6 +93,10 @@ std::string largest(const std::vector<ComparedArm>& arms, std::string_view part)
 
 std::vector<Fact> comparison_facts(const std::vector<ComparedArm>& arms) {
   std::vector<Fact> facts;
+  for (const ComparedArm& arm : arms) {
+    std::string out_of_time = out_of_time_text(arm.comparison, arm.measured);
+    if (!out_of_time.empty()) facts.push_back({"incomplete", std::move(out_of_time)});
+  }
   const auto add = [&](const char* label, std::string_view part) {
     if (std::string text = largest(arms, part); !text.empty()) {
       facts.push_back({label, std::move(text)});

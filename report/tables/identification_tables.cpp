@@ -52,6 +52,9 @@ std::vector<std::string> doubts(const measured::Identification& identification) 
 
 std::vector<std::string> data_notes(const measured::Identification& identification) {
   std::vector<std::string> notes;
+  if (!identification.are_checks_complete) {
+    notes.emplace_back("the time limit left no time for all data checks");
+  }
   for (const auto& run : identification.runs) {
     for (const auto& finding : run.findings) {
       notes.push_back(fmt::format("{}: {}: {}: {}", run.run.id, finding.channel,

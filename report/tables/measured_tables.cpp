@@ -124,6 +124,18 @@ Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs) {
   return table;
 }
 
+std::string out_of_time_text(const compare::Comparison& comparison,
+                             const compare::MeasuredComparison& measured) {
+  std::vector<std::string> left_out;
+  if (!comparison.are_refinements_complete) left_out.emplace_back("the whole convergence study");
+  if (!measured.runs_out_of_time.empty()) {
+    left_out.push_back(
+        fmt::format("simulations of {}", fmt::join(measured.runs_out_of_time, ", ")));
+  }
+  if (left_out.empty()) return "";
+  return fmt::format("the time limit left no time for {}", fmt::join(left_out, " and "));
+}
+
 Table measured_run_listing(const compare::MeasuredTimeRun& run) {
   Table table{run.run, {{"time", "s"}, {"torque", "N m"}}};
   for (const auto& signal : run.signals) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/comparison.hpp"
 #include "compare/measured_responses.hpp"
 #include "compare/measured_verdict.hpp"
 #include "report/tables/table.hpp"
@@ -24,6 +25,10 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows);
 
 /// Fit and NRMSE of each signal of the `time` runs beside their simulation.
 Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs);
+
+/// What the time limit left no time for; empty where it left out nothing.
+std::string out_of_time_text(const compare::Comparison& comparison,
+                             const compare::MeasuredComparison& measured);
 
 /// Measured and simulated signals of one run over time, for CSV.
 Table measured_run_listing(const compare::MeasuredTimeRun& run);

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Index;
 
 /// Samples between two looks at whether to go on.
-constexpr std::size_t kProgressInterval = 1 << 10;
+constexpr std::ptrdiff_t kProgressInterval = 1 << 10;
 
 /// Of the forces of an inner step in a fit: far below any noise, and small enough that quotients of
 /// differences over 1e-5 of a parameter's range have four digits.
@@ -152,8 +152,8 @@ Simulation ArmSimulator::run(Commands& commands, const SimulationProgress& progr
       ledger->close_sample(stepper.state());
       if (!std::isfinite(ledger->balance().residual_J())) throw too_large("energy", now.time_s);
     }
-    const auto k = static_cast<std::size_t>(now.sample);
-    if (progress && k % kProgressInterval == 0 && k + 1 < torque_N_m.size()) {
+    const std::ptrdiff_t k = now.sample;
+    if (progress && k % kProgressInterval == 0 && k + 1 < std::ssize(torque_N_m)) {
       go_on = progress(static_cast<double>(k) / static_cast<double>(torque_N_m.size()));
     }
     return go_on;
@@ -171,12 +171,15 @@ Simulation ArmSimulator::run(Commands& commands, const SimulationProgress& progr
 }
 
 Eigen::MatrixXd ArmSimulator::readings(std::span<const double> torque_N_m,
-                                       const Eigen::VectorXd& initial) const {
+                                       const Eigen::VectorXd& initial,
+                                       const arm::Deadline& deadline) const {
   Commands commands(*this, torque_N_m);
-  if (!lifted_ && !blocks_) return readings(commands, initial, nullptr);
+  if (!lifted_ && !blocks_) return readings(commands, initial, nullptr, deadline);
   const std::ptrdiff_t first = first_interval(torque_N_m.size(), initial);
   const auto torques = commands.path().whole_parts(first);
-  if (!lifted_ || !torques) return readings(commands, initial, torques ? &*torques : nullptr);
+  if (!lifted_ || !torques) {
+    return readings(commands, initial, torques ? &*torques : nullptr, deadline);
+  }
   Eigen::MatrixXd made = unread(torque_N_m.size());
   lifted_->read(*torques, first, initial.size() > 0 ? initial : Eigen::VectorXd::Zero(states()),
                 made);
@@ -188,10 +191,11 @@ Eigen::MatrixXd ArmSimulator::readings(std::span<const double> torque_N_m,
 }
 
 ClosedLoopReadings ArmSimulator::closed_loop_readings(const ClosedLoop& loop,
-                                                      const Eigen::VectorXd& initial) const {
+                                                      const Eigen::VectorXd& initial,
+                                                      const arm::Deadline& deadline) const {
   Commands commands(*this, loop);
   ClosedLoopReadings made;
-  made.readings = readings(commands, initial, nullptr);
+  made.readings = readings(commands, initial, nullptr, deadline);
   made.torque_N_m = commands.take_torque_N_m();
   return made;
 }
@@ -202,7 +206,8 @@ std::ptrdiff_t ArmSimulator::first_interval(std::size_t samples,
 }
 
 Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd& initial,
-                                       const Eigen::MatrixXd* torques) const {
+                                       const Eigen::MatrixXd* torques,
+                                       const arm::Deadline& deadline) const {
   const std::size_t samples = commands.torque_N_m().size();
   const ReadingPlan reading_plan = commands.reading_plan();
   TimeStepper stepper(plan_, nullptr);
@@ -210,7 +215,12 @@ Eigen::MatrixXd ArmSimulator::readings(Commands& commands, const Eigen::VectorXd
   const std::ptrdiff_t first = first_interval(samples, initial);
   SensorReadings readings(arm_, parts_, sensors_);
   Eigen::MatrixXd made = unread(samples);
+  std::ptrdiff_t next_look = first;
   const auto at = [&](const ReadingInstant& now) {
+    if (now.sample >= next_look) {
+      arm::require_time(deadline);
+      next_look = now.sample + kProgressInterval;
+    }
     const auto take = [&](std::size_t j, std::size_t k, double reading) {
       if (!std::isfinite(reading)) throw too_large("reading", now.time_s);
       made(static_cast<Index>(k), static_cast<Index>(j)) = reading;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "arm/deadline.hpp"
 #include "arm/formulation.hpp"
 #include "response/time/added_forces.hpp"
 #include "response/time/closed_loop.hpp"
@@ -86,9 +87,10 @@ class ArmSimulator {
   /// first as the longest delay needs, at most as many as there are: what a delayed sensor shows
   /// first is then motion too, without commanded torque. At rest it shows nothing before the first
   /// sample. Throws InputError for a torque that `simulate` refuses, and for readings that are too
-  /// large for a number. Concurrent calls are safe.
-  Eigen::MatrixXd readings(std::span<const double> torque_N_m,
-                           const Eigen::VectorXd& initial = {}) const;
+  /// large for a number; arm::Cancelled where samples are stepped through after the deadline.
+  /// Concurrent calls are safe.
+  Eigen::MatrixXd readings(std::span<const double> torque_N_m, const Eigen::VectorXd& initial = {},
+                           const arm::Deadline& deadline = {}) const;
 
   /// In closed loop, from rest, as `closed_loop_readings`; the controller's torque is the commanded
   /// one. Throws InputError as that does.
@@ -98,10 +100,11 @@ class ArmSimulator {
   /// are those of `readings` with that torque, but for rounding. Throws InputError for a controller
   /// that is not valid, whose period is no whole multiple of the sample time, or that reads another
   /// sensor than this object's; for a first-order hold, a reference that is empty or not finite,
-  /// and for torques and readings that are too large for a number: of a loop that is unstable.
-  /// Concurrent calls are safe.
+  /// and for torques and readings that are too large for a number: of a loop that is unstable;
+  /// arm::Cancelled after the deadline. Concurrent calls are safe.
   ClosedLoopReadings closed_loop_readings(const ClosedLoop& loop,
-                                          const Eigen::VectorXd& initial = {}) const;
+                                          const Eigen::VectorXd& initial = {},
+                                          const arm::Deadline& deadline = {}) const;
 
   /// Readings of the arm left alone from each unit state, the samples of all sensors one after the
   /// other in a column (as the columns above), a column a state. Without friction and forces that
@@ -151,7 +154,7 @@ class ArmSimulator {
   /// With the `torques` of an open loop (TorquePath::whole_parts from first_interval on) by
   /// `blocks_` where the hub surely turns; step by step where they are null.
   Eigen::MatrixXd readings(Commands& commands, const Eigen::VectorXd& initial,
-                           const Eigen::MatrixXd* torques) const;
+                           const Eigen::MatrixXd* torques, const arm::Deadline& deadline) const;
   /// The sample interval at whose beginning the state is `initial`.
   std::ptrdiff_t first_interval(std::size_t samples, const Eigen::VectorXd& initial) const;
   /// The number of modes of resolved_states; they are the first ones.

@@ -284,5 +284,29 @@ TEST_F(CompareMeasured, CorrelatesMeasuredModeShapes) {
   EXPECT_THAT(text_, Not(HasSubstr("MAC of")));
 }
 
+TEST_F(CompareMeasured, FailsWhereTheTimeLimitLeavesNothingToCompare) {
+  write("rig.toml", kDampedArm);
+  ASSERT_EQ(
+      run({"simulate", "rig.toml", "--duration", "1", "--period", "0.002", "--out", "sim"}).status,
+      0);
+  const std::vector<std::string> command = {"compare", "--measured", "sim/measurement.toml",
+                                            "--time-limit"};
+  const auto with_limit = [&](const char* limit) {
+    std::vector<std::string> arguments = command;
+    arguments.emplace_back(limit);
+    return run(arguments);
+  };
+  const Ended late = with_limit("1e-6");
+  EXPECT_EQ(late.status, 2);
+  EXPECT_THAT(late.errors, HasSubstr("--time-limit = 1e-06 s: no run could be simulated within the "
+                                     "limit; raise it"));
+  EXPECT_EQ(with_limit("1000").status, 0);
+  EXPECT_EQ(with_limit("0").status, 2);
+  const Ended study = run({"compare", "rig.toml", "--verbose", "--time-limit", "1e-6"});
+  EXPECT_EQ(study.status, 0) << study.errors;
+  EXPECT_THAT(study.output,
+              HasSubstr("warning: the time limit left no time for the whole convergence study"));
+}
+
 }  // namespace
 }  // namespace flexarm::testing_app

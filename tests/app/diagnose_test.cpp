@@ -207,20 +207,17 @@ TEST_F(Diagnose, EndsAtItsTimeLimitWithWhatItHas) {
 /// Diagnoses with a limit of 3 s end soon after it.
 class TimeLimit : public Diagnose {
  protected:
-  /// Returns the seconds that one took, of the clock or of the processor, whichever is less: other
-  /// programs make it wait.
-  double seconds_of(const std::string& file) const {
+  /// Expects it of one, by the clock or by the processor, whichever is less: other programs make it
+  /// wait.
+  Ended in_time(const std::string& file) const {
+    constexpr double kMost_s = 5.0;
     const auto begun = std::chrono::steady_clock::now();
     const double used_before_s = processor_s();
     const Ended ended = run({"diagnose", file, "--time-limit", "3"});
-    EXPECT_EQ(ended.status, 0) << ended.errors;
     const std::chrono::duration<double> clock = std::chrono::steady_clock::now() - begun;
-    return std::min(clock.count(), processor_s() - used_before_s);
+    EXPECT_LT(std::min(clock.count(), processor_s() - used_before_s), kMost_s);
+    return ended;
   }
-
-  static constexpr double kMost_s = 5.0;
-  /// One evaluation of the arm as filed, which is reported whatever the limit.
-  static constexpr double kEvaluation_s = 7.0;
 };
 
 TEST_F(TimeLimit, HoldsOnTheLongestDataOfTheRepository) {
@@ -229,11 +226,12 @@ TEST_F(TimeLimit, HoldsOnTheLongestDataOfTheRepository) {
       run({"import", ruler + "random-low.csv", ruler + "random-high.csv", ruler + "bang-bang.csv",
            "--arm", ruler + "ruler.toml", "--out", "ruler"});
   ASSERT_EQ(imported.status, 0) << imported.errors;
-  EXPECT_LT(seconds_of("ruler/measurement.toml"), kMost_s);
+  const Ended ended = in_time("ruler/measurement.toml");
+  EXPECT_EQ(ended.status, 0) << ended.errors;
 }
 
 /// Runs of 25,000 samples are used whole; friction and an unknown initial state make the evaluation
-/// of a model take seconds.
+/// of a model take seconds. Where that of the arm as filed takes longer, there is nothing to tell.
 TEST_F(TimeLimit, HoldsOnLongRuns) {
   write("rig.toml", std::string(kDiagnosedArm) + "[effects.coulomb_friction]\ntorque = 0.01\n");
   std::vector<std::string> command = {
@@ -250,7 +248,14 @@ TEST_F(TimeLimit, HoldsOnLongRuns) {
       std::regex_replace(text_of("sim/measurement.toml"), std::regex("kind = \"time\""),
                          "kind = \"time\"\ninitial = \"free\"");
   write("sim/measurement.toml", free);
-  EXPECT_LT(seconds_of("sim/measurement.toml"), kMost_s + kEvaluation_s);
+  const Ended ended = in_time("sim/measurement.toml");
+  if (ended.status == 0) {
+    EXPECT_THAT(ended.output, HasSubstr("The search is incomplete: the time limit of 3 s ended"));
+  } else {
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.errors, HasSubstr("--time-limit = 3 s: the arm as filed could not be "
+                                        "simulated within the limit; raise it"));
+  }
 }
 
 class LateTorque : public Diagnose, public testing::WithParamInterface<double> {

@@ -340,5 +340,19 @@ TEST_F(Identify, AFreeDecayIsIdentifiedAndDiagnosed) {
   EXPECT_EQ(diagnosed.status, 0) << diagnosed.errors;
 }
 
+TEST_F(Identify, SaysWhatTheTimeLimitLeftOut) {
+  simulate("sim");
+  const Ended late = run({"identify", "sim/measurement.toml", "--time-limit", "1e-6"});
+  EXPECT_EQ(late.status, 2);
+  EXPECT_THAT(late.errors, HasSubstr("run random: the time limit left no time for it"));
+  const Ended refused = run({"identify", "sim/measurement.toml", "--time-limit", "0"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("--time-limit = 0 s: must be a finite number above 0"));
+  const Ended done =
+      run({"identify", "sim/measurement.toml", "--time-limit", "1000", "--json", "out.json"});
+  EXPECT_EQ(done.status, 0) << done.errors;
+  EXPECT_EQ(Json::parse(text_of("out.json"))["checks_complete"], true);
+}
+
 }  // namespace
 }  // namespace flexarm::testing_app

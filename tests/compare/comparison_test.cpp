@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -111,6 +112,17 @@ TEST(Comparison, OptionsOutOfRangeAreRefusedByName) {
       EXPECT_THAT(error.what(), HasSubstr(line));
     }
   }
+}
+
+TEST(Comparison, HasNoRefinementsAfterTheDeadline) {
+  Options options = quick();
+  EXPECT_TRUE(compare(arm::paper_arm(), options).are_refinements_complete);
+  options.refinements = true;
+  options.deadline = std::chrono::steady_clock::now();
+  const auto comparison = compare(arm::paper_arm(), options);
+  EXPECT_FALSE(comparison.are_refinements_complete);
+  EXPECT_TRUE(comparison.refinements.empty());
+  EXPECT_TRUE(comparison.verdict.agree);
 }
 
 TEST(Comparison, OneModelIsNoComparison) {

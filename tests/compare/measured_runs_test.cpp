@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -186,6 +187,12 @@ TEST(MeasuredRuns, AnErrorNamesTheRun) {
   } catch (const arm::InputError& error) {
     EXPECT_EQ(std::string(error.what()).substr(0, 11), "run steps: ");
   }
+}
+
+TEST(MeasuredRuns, AreNotSimulatedAfterTheDeadline) {
+  EXPECT_THROW(run_beside_simulation(damped_arm(), recorded(damped_arm(), 300),
+                                     std::chrono::steady_clock::now()),
+               arm::Cancelled);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "diagnose/search/fit.hpp"
 
+#include "arm/input_error.hpp"
 #include "diagnose/diagnosis.hpp"
+#include "diagnose/diagnosis_request.hpp"
 #include "diagnose/search/hypothesis.hpp"
 #include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -117,6 +119,37 @@ TEST(Diagnose, NamesNothingWhereTheDeadlineIsOverAtOnce) {
   EXPECT_EQ(none.verdict, Verdict::unexplained);
   EXPECT_TRUE(none.causes.empty());
   EXPECT_TRUE(none.next_experiments.empty());
+}
+
+TEST(Diagnose, SaysNothingWhereNotEvenTheArmAsFiledWasSimulated) {
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.012}})});
+  SelectionOptions options;
+  options.deadline = options.last = std::chrono::steady_clock::now();
+  EXPECT_THROW(diagnose(experiment, named(experiment, {"time_delay"}), options), Cancelled);
+  DiagnosisRequest request;
+  request.time_limit_s = 3.0;
+  try {
+    diagnose(experiment, request, *options.deadline - 2 * kReportTime);
+    ADD_FAILURE() << "there is no time for a diagnosis";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--time-limit = 3 s: the arm as filed could not be simulated within the limit; "
+                 "raise it");
+  }
+}
+
+TEST(ReportedWork, IsOutOfTimeWhereItsProgressDidNotCancelIt) {
+  const Deadline past = std::chrono::steady_clock::now();
+  const ReportedWork late({}, past);
+  EXPECT_THROW(late.go_on(), Cancelled);
+  EXPECT_TRUE(late.is_out_of_time());
+  const ReportedWork cancelled([](std::string_view, double) { return false; }, past);
+  EXPECT_THROW(cancelled.go_on(), Cancelled);
+  EXPECT_FALSE(cancelled.is_out_of_time());
+  // An evaluation that has the same deadline may notice it first.
+  const ReportedWork unasked({}, past);
+  EXPECT_TRUE(unasked.is_out_of_time());
 }
 
 TEST(Diagnose, EndsWithTheBestSoFarAtTheDeadline) {

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ostream>
 
@@ -84,6 +86,17 @@ TEST_P(RunCheck, ClaimsNothingOfRunsThatAgree) {
     const auto findings = GetParam().found(recorded);
     EXPECT_TRUE(findings.empty()) << report(recorded, findings);
   }
+}
+
+TEST(RunCheckPayload, IsNotFoundAfterTheDeadline) {
+  const auto recorded = plant_wrong_payload(0, true);
+  const auto of_payload = [&](const arm::Deadline& deadline) {
+    return std::ranges::count(check_runs(checked(recorded), recorded.arms, deadline),
+                              Fault::wrong_payload,
+                              [](const RunFinding& one) { return one.finding.fault; });
+  };
+  EXPECT_EQ(of_payload({}), 1);
+  EXPECT_EQ(of_payload(std::chrono::steady_clock::now()), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(, RunCheck, testing::ValuesIn(kPlants),

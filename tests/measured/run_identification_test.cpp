@@ -8,8 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 namespace flexarm::measured {
 namespace {
@@ -194,6 +196,29 @@ TEST(Identify, StopsWhereItIsToldTo) {
   EXPECT_EQ(identify({time_run("random", short_case())}, options).fits.size(), 1U);
   EXPECT_GT(calls, 3);
   EXPECT_LE(last, 1.0);
+}
+
+TEST(Identify, RefusesWhatTheDeadlineLeavesNoTimeFor) {
+  IdentificationOptions options;
+  options.deadline = std::chrono::steady_clock::now();
+  try {
+    identify({time_run("random", short_case())}, options);
+    ADD_FAILURE() << "there is no time for a spectrum";
+  } catch (const arm::InputError& error) {
+    EXPECT_STREQ(error.what(), "run random: the time limit left no time for it");
+  }
+  // The fit begins, and finds that the time is over.
+  constexpr std::chrono::seconds kTime{6};
+  options.deadline = std::chrono::steady_clock::now() + kTime;
+  options.progress = [&](std::string_view what, double) {
+    if (what.starts_with("fit of")) std::this_thread::sleep_until(*options.deadline);
+    return true;
+  };
+  const Identification found = identify({time_run("random", short_case())}, options);
+  EXPECT_FALSE(readings_by(Method::response, found).empty());
+  EXPECT_TRUE(readings_by(Method::rational_fit, found).empty());
+  ASSERT_EQ(found.fits.size(), 1U);
+  EXPECT_EQ(found.fits[0].refusal, "the time limit left no time for it");
 }
 
 }  // namespace

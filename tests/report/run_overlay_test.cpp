@@ -82,6 +82,19 @@ TEST(RunOverlay, TablesHaveFitAndValues) {
   EXPECT_EQ(std::get<double>(listing.rows[2][2]), std::sin(0.02));
 }
 
+TEST(RunOverlay, WhatTheTimeLimitLeftOutIsTold) {
+  ComparedArm compared = sample_comparison();
+  EXPECT_EQ(out_of_time_text(compared.comparison, compared.measured), "");
+  compared.comparison.are_refinements_complete = false;
+  compared.measured.runs_out_of_time = {"one", "two"};
+  EXPECT_EQ(out_of_time_text(compared.comparison, compared.measured),
+            "the time limit left no time for the whole convergence study and simulations of one, "
+            "two");
+  const auto document = Json::parse(comparison_json({compared}));
+  EXPECT_EQ(document["comparisons"][0]["refinements_complete"], false);
+  EXPECT_EQ(document["comparisons"][0]["runs_out_of_time"], Json({"one", "two"}));
+}
+
 TEST(RunOverlay, JsonHasTheRunAndItsVerdict) {
   ComparedArm compared = sample_comparison();
   compared.measured = {{}, {}, {}, {sample_run(50, 0)}, {"loaded"}};

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -263,6 +264,21 @@ TEST(ArmSimulator, ResolvesTheModesBelowTheNyquistFrequency) {
     const Eigen::MatrixXd of_hub = shown.topRows(2) * resting;
     EXPECT_LE(of_hub.cwiseAbs().maxCoeff(), kRounding * shown.topRows(2).norm()) << sample_time_s;
   }
+}
+
+TEST(ArmSimulator, EndsAtTheDeadline) {
+  arm::Arm arm = arm::paper_arm();
+  arm.effects = {effects::named("stribeck_friction",
+                                {{"torque", 0.012}, {"static_torque", 0.018}, {"velocity", 0.08}})};
+  const auto sensors = four_sensors();
+  const ArmParts parts = take_apart(arm);
+  const ArmSimulator simulation(
+      time_model(make_formulation("exact_tf", arm, kFlexibleModes), parts, kFlexibleModes, sensors),
+      parts, sensors, options_of_fit(kStep_s, TorqueHold::zero));
+  const std::vector<double> torque_N_m(kTwoSeconds, 0.05);
+  EXPECT_EQ(simulation.readings(torque_N_m).rows(), static_cast<Eigen::Index>(kTwoSeconds));
+  EXPECT_THROW(simulation.readings(torque_N_m, {}, std::chrono::steady_clock::now()),
+               arm::Cancelled);
 }
 
 }  // namespace

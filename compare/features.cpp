@@ -66,6 +66,16 @@ std::vector<std::optional<std::complex<double>>> match(
 std::vector<std::optional<std::complex<double>>> match_nearest(
     std::span<const std::complex<double>> reference, std::span<const std::complex<double>> found) {
   std::vector<std::optional<std::complex<double>>> matched(reference.size());
+  pair_nearest(reference, found, [&](std::size_t i, std::size_t j) {
+    matched[i] = found[j];
+    return true;
+  });
+  return matched;
+}
+
+void pair_nearest(std::span<const std::complex<double>> reference,
+                  std::span<const std::complex<double>> found,
+                  const std::function<bool(std::size_t, std::size_t)>& take) {
   struct Pair {
     double distance;
     std::size_t reference;
@@ -79,13 +89,12 @@ std::vector<std::optional<std::complex<double>>> match_nearest(
     }
   }
   std::ranges::stable_sort(pairs, {}, &Pair::distance);
+  std::vector<bool> matched(reference.size(), false);
   std::vector<bool> taken(found.size(), false);
   for (const Pair& pair : pairs) {
     if (matched[pair.reference] || taken[pair.found]) continue;
-    taken[pair.found] = true;
-    matched[pair.reference] = found[pair.found];
+    matched[pair.reference] = taken[pair.found] = take(pair.reference, pair.found);
   }
-  return matched;
 }
 
 }  // namespace flexarm::compare

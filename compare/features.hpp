@@ -4,6 +4,8 @@
 #include "response/any_formulation.hpp"
 
 #include <complex>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -50,6 +52,12 @@ std::vector<std::optional<std::complex<double>>> match(
 /// The second of these ways.
 std::vector<std::optional<std::complex<double>>> match_nearest(
     std::span<const std::complex<double>> reference, std::span<const std::complex<double>> found);
+
+/// The same where `take(i, j)` says whether reference root i and root j of `found` are paired: it
+/// is asked of the nearest first, while neither has another.
+void pair_nearest(std::span<const std::complex<double>> reference,
+                  std::span<const std::complex<double>> found,
+                  const std::function<bool(std::size_t, std::size_t)>& take);
 
 /// A root further than this from a reference root, relative to its modulus, is not taken for it.
 inline constexpr double kNearest = 0.3;

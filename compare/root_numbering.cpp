@@ -141,34 +141,24 @@ double common_factor(const ModalTable& table, const ModelRoots& model,
 /// Numbers those of `measured` without an order by distance from `factor` times the model's,
 /// nearest first, so that orders rise with frequency. A root with no order left between its
 /// neighbours' has none.
-void number_by_distance(const Sequence& measured, const std::vector<ModelRoot>& model,
-                        double factor, std::vector<RootOrder>& orders) {
-  struct Pair {
-    double distance = 0.0;
-    const SequenceRoot* root = nullptr;
-    int order = 0;
-  };
-  std::vector<Pair> pairs;
-  for (const SequenceRoot& root : measured) {
-    if (root.order) continue;
-    for (const ModelRoot& candidate : model) {
-      const double distance = relative_distance(root.frequency_Hz, factor * candidate.frequency_Hz);
-      if (distance <= kNearest) pairs.push_back({distance, &root, candidate.order});
-    }
-  }
-  std::ranges::stable_sort(pairs, {}, &Pair::distance);
-  Sequence numbered = measured;
-  for (const Pair& pair : pairs) {
-    if (orders[pair.root->entry].order) continue;
-    const bool rises = std::ranges::all_of(numbered, [&](const SequenceRoot& other) {
+void number_by_distance(Sequence measured, const std::vector<ModelRoot>& model, double factor,
+                        std::vector<RootOrder>& orders) {
+  std::vector<std::complex<double>> expected_Hz;
+  for (const ModelRoot& root : model) expected_Hz.emplace_back(factor * root.frequency_Hz);
+  std::vector<std::complex<double>> found_Hz;
+  for (const SequenceRoot& root : measured) found_Hz.emplace_back(root.frequency_Hz);
+  pair_nearest(expected_Hz, found_Hz, [&](std::size_t i, std::size_t j) {
+    SequenceRoot& root = measured[j];
+    const int order = model[i].order;
+    const bool rises = std::ranges::all_of(measured, [&](const SequenceRoot& other) {
       if (!other.order) return true;
-      return other.frequency_Hz < pair.root->frequency_Hz ? *other.order < pair.order
-                                                          : *other.order > pair.order;
+      return other.frequency_Hz < root.frequency_Hz ? *other.order < order : *other.order > order;
     });
-    if (!rises) continue;
-    orders[pair.root->entry] = {pair.order, OrderBasis::distance};
-    std::ranges::find(numbered, pair.root->entry, &SequenceRoot::entry)->order = pair.order;
-  }
+    if (root.order || !rises) return false;
+    root.order = order;
+    orders[root.entry] = {order, OrderBasis::distance};
+    return true;
+  });
 }
 
 /// Whose poles and zeros a table has: collocated sensors first, since their zeros number poles.

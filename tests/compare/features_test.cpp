@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace flexarm::compare {
@@ -74,6 +76,23 @@ TEST(Match, NothingFurtherThanNearestIsTaken) {
   const double just_outside = 100 * (1 + 1.01 * kNearest);
   EXPECT_TRUE(match(kTipZeros, reference, Roots{{just_inside, 0}})[0].has_value());
   EXPECT_FALSE(match(kTipZeros, reference, Roots{{just_outside, 0}})[0].has_value());
+}
+
+TEST(PairNearest, AsksTheNearestFirstAndOnlyWhatIsNotPaired) {
+  const Roots reference = {{0, 20}, {0, 22}};
+  const Roots found = {{0, 20.1}, {0, 21}};
+  std::vector<std::pair<std::size_t, std::size_t>> asked;
+  pair_nearest(reference, found, [&](std::size_t i, std::size_t j) {
+    asked.emplace_back(i, j);
+    return asked.size() > 1;  // not the first
+  });
+  EXPECT_EQ(asked, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 0}, {1, 1}}));
+  asked.clear();
+  pair_nearest(reference, found, [&](std::size_t i, std::size_t j) {
+    asked.emplace_back(i, j);
+    return false;
+  });
+  EXPECT_EQ(asked.size(), 4U);
 }
 
 TEST(RelativeDistance, IsOverTheReferencesModulus) {

@@ -4,6 +4,7 @@
 #include "diagnose/symptoms/drift_symptoms.hpp"
 #include "diagnose/symptoms/error_trends.hpp"
 
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -15,25 +16,31 @@ Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift,
   const auto add = [&](std::vector<Symptom> symptoms) {
     std::ranges::move(symptoms, std::back_inserter(made.statements));
   };
-  try {
-    require_time(deadline);
-    made.bands = band_errors(input);
-    add(error_symptoms(input, made.bands));
-    require_time(deadline);
-    // The torque is no input of an arm that is driven by motion.
-    if (!is_driven_by_motion(input.problem.experiment())) add(trend_symptoms(input));
-    require_time(deadline);
-    made.roots = root_shifts(input);
-    add(root_symptoms(made.roots));
-    require_time(deadline);
-    made.hub_torque = hub_torque(hub_motions(input),
-                                 input.has_causes() ? 0.0 : SelectionOptions{}.negligible_error);
-    add(hub_torque_symptoms(made.hub_torque));
-    require_time(deadline);
-    made.distortion = run_distortions(input.problem.experiment());
-    add(distortion_symptoms(made.distortion));
-  } catch (const Cancelled&) {
-    made.is_complete = false;
+  const std::function<void()> parts[] = {
+      [&] {
+        made.bands = band_errors(input);
+        add(error_symptoms(input, made.bands));
+      },
+      [&] {
+        // The torque is no input of an arm that is driven by motion.
+        if (!is_driven_by_motion(input.problem.experiment())) add(trend_symptoms(input));
+      },
+      [&] {
+        made.roots = root_shifts(input);
+        add(root_symptoms(made.roots));
+      },
+      [&] {
+        made.hub_torque = hub_torque(
+            hub_motions(input), input.has_causes() ? 0.0 : SelectionOptions{}.negligible_error);
+        add(hub_torque_symptoms(made.hub_torque));
+      },
+      [&] {
+        made.distortion = run_distortions(input.problem.experiment());
+        add(distortion_symptoms(made.distortion));
+      }};
+  for (const auto& part : parts) {
+    made.is_complete = made.is_complete && !is_over(deadline);
+    if (made.is_complete) part();
   }
   made.drift = std::move(drift);
   if (made.drift) add(drift_symptoms(*made.drift));

@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/csv.hpp"
-#include "measured/files/file_kind.hpp"
 #include "measured/files/foreign_file.hpp"
 #include "measured/files/text_file.hpp"
 
@@ -20,21 +19,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestMeasuredFile_bytes = std::size_t{1} << 28U;
 
-/// Throws InputError as its reader does, with all that `--measured` takes in place of that alone.
-measured::ModalTable read_table(const std::string& file) {
-  try {
-    return measured::read_modal_table(file);
-  } catch (const arm::InputError& error) {
-    std::string line = error.what();
-    const std::string due = measured::requirement(measured::FileKind::modal_table);
-    const auto at = line.find(due);
-    if (at == std::string::npos) throw;
-    line.replace(at, due.size(),
-                 "must be a modal table or frequency responses (CSV), or a measurement.toml, whose "
-                 "time runs are simulated");
-    throw arm::InputError(line);
-  }
-}
+/// What `--measured` takes.
+constexpr const char* kMeasuredFile =
+    "must be a modal table or frequency responses (CSV), or a measurement.toml, whose time runs "
+    "are "
+    "simulated";
 
 bool is_frequency_record(const std::string& file) {
   const std::string text = measured::read_text_file(file, kLargestMeasuredFile_bytes);
@@ -96,7 +85,7 @@ MeasuredFile read_measured_file(const std::string& file) {
   } else if (is_frequency_record(file)) {
     read.data.emplace_back(measured::read_frequency_record(file));
   } else {
-    read.data.emplace_back(read_table(file));
+    read.data.emplace_back(measured::read_modal_table(file, kMeasuredFile));
   }
   return read;
 }

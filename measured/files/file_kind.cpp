@@ -246,7 +246,7 @@ std::string requirement(FileKind due) {
 }
 
 arm::InputError wrong_file(string_view bytes, const std::string& file_name, FileKind due,
-                           const arm::InputError& error) {
+                           const arm::InputError& error, const std::string& required) {
   const auto file = recognise_file(bytes);
   const string_view first_line = bytes.substr(0, bytes.find_first_of("\r\n"));
   const bool is_of_frequencies =
@@ -267,7 +267,8 @@ arm::InputError wrong_file(string_view bytes, const std::string& file_name, File
   if (const auto at = way.find(kFile); at != std::string::npos) {
     way.replace(at + 1, kFile.size() - 2, file_name);
   }
-  return arm::InputError(fmt::format("{}: {}; {}; {}", file_name, file->is, requirement(due), way));
+  return arm::InputError(fmt::format("{}: {}; {}; {}", file_name, file->is,
+                                     required.empty() ? requirement(due) : required, way));
 }
 
 }  // namespace flexarm::measured

@@ -41,21 +41,22 @@ std::optional<RecognisedFile> recognise_file(std::string_view bytes);
 std::string requirement(FileKind due);
 
 /// The error in place of `error` where the bytes are those of a file of another kind than is due:
-/// "FILE: is a measurement; must be an arm file; flexarm diagnose takes it".
+/// "FILE: is a measurement; must be an arm file; flexarm diagnose takes it". `required` stands in
+/// the place of `requirement(due)` where it is given: other kinds are taken as well.
 arm::InputError wrong_file(std::string_view bytes, const std::string& file_name, FileKind due,
-                           const arm::InputError& error);
+                           const arm::InputError& error, const std::string& required = {});
 
 /// Reads a file as `parse(text, file_name)` does. Throws InputError as it and `read_text_file` do,
 /// or `wrong_file`.
 template <class Parse>
 auto read_file_as(FileKind due, const std::filesystem::path& path, std::size_t largest_bytes,
-                  const Parse& parse) {
+                  const Parse& parse, const std::string& required = {}) {
   const std::string text = read_text_file(path, largest_bytes);
   const std::string file_name = arm::shown(path.string());
   try {
     return parse(text, file_name);
   } catch (const arm::InputError& error) {
-    throw wrong_file(text, file_name, due, error);
+    throw wrong_file(text, file_name, due, error, required);
   }
 }
 

@@ -210,8 +210,9 @@ ModalTable parse_modal_table(std::string_view csv, const std::string& file_name)
   }
 }
 
-ModalTable read_modal_table(const std::filesystem::path& path) {
-  return read_file_as(FileKind::modal_table, path, kLargestModalTable_bytes, parse_modal_table);
+ModalTable read_modal_table(const std::filesystem::path& path, const std::string& required) {
+  return read_file_as(FileKind::modal_table, path, kLargestModalTable_bytes, parse_modal_table,
+                      required);
 }
 
 std::string format_modal_table(const ModalTable& table) {

@@ -42,8 +42,9 @@ using ModalTable = std::vector<ModalEntry>;
 ///
 /// Throws InputError with one line `FILE:LINE: what is wrong; what is allowed` for a file that
 /// cannot be read, a header or row that does not fit, an unknown sensor or feature, a number that
-/// is none or out of its range, and a pole or zero that is given twice.
-ModalTable read_modal_table(const std::filesystem::path& path);
+/// is none or out of its range, and a pole or zero that is given twice. Of a file of another kind
+/// it says what is `required`, where other kinds are taken as well.
+ModalTable read_modal_table(const std::filesystem::path& path, const std::string& required = {});
 
 /// The same for the text of a file; `file_name` stands in the errors.
 ModalTable parse_modal_table(std::string_view csv, const std::string& file_name);

@@ -68,6 +68,9 @@ TEST(FileKindTest, AFileOfTheKindThatIsDueKeepsTheWordsOfItsReader) {
             "response and simulate take it");
   EXPECT_THAT(words("t,tau\n0,1\n1,2\n", FileKind::modal_table),
               HasSubstr("flexarm import a --out FOLDER"));
+  EXPECT_STREQ(
+      wrong_file("[beam]\nlength = 1\n", "a", FileKind::measurement, own, "must be red").what(),
+      "a: is an arm file; must be red; flexarm modes, compare, response and simulate take it");
 }
 
 }  // namespace

@@ -42,25 +42,20 @@ RankingBlock distinguishability(const Plan& plan) {
   const auto share_of = [](double lead) {
     return std::clamp(std::log10(std::max(lead, 1.0)) / std::log10(10.0 * kClearLead), 0.0, 1.0);
   };
-  std::vector<std::pair<double, RankingItem>> items;
-  for (std::size_t i = 0; i < plan.effects.size(); ++i) {
+  for (const std::size_t i : least_distinguishable_first(plan)) {
     RankingItem item{effect_words(plan, i), 0.0, "not detectable", false, {}};
-    double lead = -std::numeric_limits<double>::infinity();
     if (plan.effects[i].shows) {
       const auto nearest = nearest_rival(plan, i);
-      lead = nearest ? nearest->lead : std::numeric_limits<double>::infinity();
-      item.share = share_of(lead);
-      item.value = nearest ? lead_words(lead) : "no alternative";
+      item.share = share_of(nearest ? nearest->lead : std::numeric_limits<double>::infinity());
+      item.value = nearest ? lead_words(nearest->lead) : "no alternative";
       item.details.push_back({"minimum detectable value",
                               unit_text(text_in_words(minimum_detectable(plan.effects[i])))});
       if (nearest) {
         item.details.push_back({"nearest alternative", effect_words(plan, nearest->effect)});
       }
     }
-    items.emplace_back(lead, std::move(item));
+    block.items.push_back(std::move(item));
   }
-  std::ranges::stable_sort(items, {}, &std::pair<double, RankingItem>::first);
-  for (auto& [lead, item] : items) block.items.push_back(std::move(item));
   return block;
 }
 

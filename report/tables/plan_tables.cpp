@@ -63,17 +63,6 @@ std::string nearest_distinguishable(const Plan& plan, std::size_t effect) {
   return nearest ? fmt::format("{} ({:.0f})", label_of(plan, nearest->effect), nearest->lead) : "";
 }
 
-/// Smaller where less can be said of an effect: ties first, then what is not detectable.
-double distinguishability_of(const Plan& plan, std::size_t effect) {
-  const bool has_tie = std::ranges::any_of(plan.ties, [effect](const diagnose::TiedPair& tie) {
-    return tie.truth == effect || tie.rival == effect;
-  });
-  if (has_tie) return -2.0;
-  if (!plan.effects[effect].shows) return -1.0;
-  const auto nearest = nearest_rival(plan, effect);
-  return nearest ? nearest->lead : std::numeric_limits<double>::infinity();
-}
-
 char mark(const Plan& plan, std::size_t truth, std::size_t rival) {
   const auto& separation = plan.separations[truth][rival];
   if (!separation) return ' ';
@@ -91,6 +80,20 @@ std::optional<PlanRival> nearest_rival(const Plan& plan, std::size_t effect, dou
     if (!nearest || separation->lead < nearest->lead) nearest = PlanRival{b, separation->lead};
   }
   return nearest;
+}
+
+std::vector<std::size_t> least_distinguishable_first(const Plan& plan) {
+  std::vector<std::size_t> order(plan.effects.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t effect) {
+    constexpr int kTied = 0, kNotDetectable = 1, kOther = 2;
+    const auto nearest = nearest_rival(plan, effect);
+    return std::pair(!tied_with(plan, effect).empty() ? kTied
+                     : !plan.effects[effect].shows    ? kNotDetectable
+                                                      : kOther,
+                     nearest ? nearest->lead : std::numeric_limits<double>::infinity());
+  });
+  return order;
 }
 
 std::string minimum_detectable(const diagnose::Detection& detection) {
@@ -125,11 +128,7 @@ Table detection_table(const Plan& plan) {
                {.name = "minimum detectable value"},
                {.name = "indistinguishable from"},
                {.name = "closest distinguishable (delta BIC)"}}};
-  std::vector<std::size_t> order(plan.effects.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {},
-                           [&](std::size_t i) { return distinguishability_of(plan, i); });
-  for (const std::size_t i : order) {
+  for (const std::size_t i : least_distinguishable_first(plan)) {
     table.add_row({label_of(plan, i), minimum_detectable(plan.effects[i]),
                    fmt::format("{}", fmt::join(tied_with(plan, i), ", ")),
                    nearest_distinguishable(plan, i)});

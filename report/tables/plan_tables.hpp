@@ -32,12 +32,16 @@ std::optional<PlanRival> nearest_rival(
     const diagnose::Plan& plan, std::size_t effect,
     double least_lead = -std::numeric_limits<double>::infinity());
 
+/// All effects: those with ties first, then those that are not detectable, in each of these groups
+/// and after them by the smallest lead over another.
+std::vector<std::size_t> least_distinguishable_first(const diagnose::Plan& plan);
+
 /// The smallest values of an effect that would be found: "stiffness 12.3 N m/rad"; "not
 /// detectable".
 std::string minimum_detectable(const diagnose::Detection& detection);
 
-/// Each effect: from which value on it is found, what it is tied with, and the nearest other. Those
-/// with ties come first, then those that are not detectable, then the nearest to another.
+/// Each effect, in the order of least_distinguishable_first: from which value on it is found, what
+/// it is tied with, and the nearest other.
 Table detection_table(const diagnose::Plan& plan);
 
 /// Which effect (a row) is distinguishable from which (a column), a letter each, with a key below.

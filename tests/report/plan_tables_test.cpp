@@ -46,8 +46,8 @@ std::vector<std::string> texts(const Table& table, std::size_t column) {
 
 TEST(PlanTables, EffectsThatAreTiedComeFirst) {
   const Table table = detection_table(plan());
-  EXPECT_THAT(texts(table, 0), ElementsAre("time_delay", "actuator_lag", "gravity", "hub_inertia"));
-  EXPECT_THAT(texts(table, 2), ElementsAre("actuator_lag", "time_delay", "", ""));
+  EXPECT_THAT(texts(table, 0), ElementsAre("actuator_lag", "time_delay", "gravity", "hub_inertia"));
+  EXPECT_THAT(texts(table, 2), ElementsAre("time_delay", "actuator_lag", "", ""));
 }
 
 TEST(PlanTables, PairsAscendInTheirLead) {
@@ -63,6 +63,11 @@ TEST(PlanPage, HasIndistinguishablePairsOnItsFirstScreen) {
   ASSERT_EQ(page.results.size(), 1U);
   EXPECT_EQ(page.results[0].label, "Actuator lag and time delay");
   EXPECT_EQ(page.results[0].value, "indistinguishable, delta BIC 0");
+  // The ranking has the order of the table.
+  const auto& ranking = std::get<page::RankingBlock>(page.headline.value());
+  std::vector<std::string> names;
+  for (const auto& item : ranking.items) names.push_back(item.label);
+  EXPECT_THAT(names, ElementsAre("Actuator lag", "Time delay", "Gravity", "Hub inertia"));
 }
 
 }  // namespace

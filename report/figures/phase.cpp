@@ -14,6 +14,9 @@ constexpr double kHalfTurn_deg = 180.0;
 constexpr double kTurn_deg = 360.0;
 /// A step of half a turn has no direction: what damping or rounding makes of it is less.
 constexpr double kUndecided_deg = 0.01;
+/// A curve that is farther from its reference goes on a turn nearer. Between two poles, or two
+/// zeros, that lie apart it is half a turn away.
+constexpr double kFarthest_deg = 270.0;
 
 double angle_deg(std::complex<double> value) {
   if (value == 0.0) return std::numeric_limits<double>::quiet_NaN();
@@ -69,8 +72,15 @@ void turn_towards(const PhaseCurve& reference, PhaseCurve& curve) {
     if (!distances.empty()) {
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::ranges::nth_element(distances, middle);
-      const double turns_deg = kTurn_deg * std::round(*middle / kTurn_deg);
-      for (std::size_t k = from; k < to; ++k) phase[k] += turns_deg;
+      double turns_deg = kTurn_deg * std::round(*middle / kTurn_deg);
+      for (std::size_t k = from; k < to; ++k) {
+        phase[k] += turns_deg;
+        const double distance = phase_at(reference, curve.frequency_Hz[k]) - phase[k];
+        if (!(std::abs(distance) > kFarthest_deg)) continue;
+        const double more_deg = kTurn_deg * std::round(distance / kTurn_deg);
+        turns_deg += more_deg;
+        phase[k] = k == from ? phase[k] + more_deg : std::numeric_limits<double>::quiet_NaN();
+      }
     }
     from = to + 1;
   }

@@ -25,7 +25,9 @@ struct PhaseCurve {
 double to_principal_turn_deg(const std::vector<double>& phase_deg);
 
 /// Turns each piece of a curve between gaps by whole turns, so that the median of its distances
-/// from the reference is less than half a turn. A piece beyond the reference stays.
+/// from the reference is less than half a turn. Where it runs away from the reference, as where one
+/// of them has a zero to the left of the imaginary axis and the other to the right, it goes on a
+/// turn nearer, behind a gap of one value. A piece beyond the reference stays.
 void turn_towards(const PhaseCurve& reference, PhaseCurve& curve);
 
 }  // namespace flexarm::report

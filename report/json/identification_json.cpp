@@ -4,6 +4,7 @@
 #include "report/json/json_document.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/method_differences.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -223,7 +224,7 @@ Json sensor_json(const measured::FittedSensor& sensor) {
                      {"damping_ratio_std", zero.damping_ratio_std},
                      {"in_band", zero.in_band},
                      {"is_told", zero.is_told},
-                     {"non_minimum_phase", zero.s_rad_per_s.real() > 0.0}});
+                     {"non_minimum_phase", is_non_minimum_phase(zero)}});
   }
   const auto& residual = sensor.residual;
   return {{"sensor", arm::to_string(sensor.sensor)},

@@ -10,6 +10,7 @@
 #include "report/page/root_map.hpp"
 #include "report/tables/best_roots.hpp"
 #include "report/tables/identification_tables.hpp"
+#include "report/tables/zero_kind.hpp"
 #include "report/words.hpp"
 
 #include <fmt/format.h>
@@ -164,7 +165,7 @@ void add_identified(MapBlock& map, const IdentifiedRuns& runs,
       const std::complex<double> s = zero.s_rad_per_s;
       if (s.imag() != 0.0 || !zero.in_band || !zero.is_told) continue;
       map.points.push_back({.mark = Mark::zero,
-                            .non_minimum_phase = s.real() > 0.0,
+                            .non_minimum_phase = is_non_minimum_phase(zero),
                             .series = "measured",
                             .role = Role::measured,
                             .real = s.real(),

@@ -86,6 +86,14 @@ PhaseCurve phase_of(const BodeCurve& curve) {
   return {curve.frequency_Hz, continuous_phase_deg(response)};
 }
 
+/// Without the values that have no phase.
+BodeCurve where_known(BodeCurve curve, const PhaseCurve& phase) {
+  for (std::size_t k = 0; k < curve.response.size(); ++k) {
+    if (!std::isfinite(phase.phase_deg[k])) curve.response[k] = kGapNumber;
+  }
+  return curve;
+}
+
 /// The phases of curves, each by whole turns near that of the first one without a deviation.
 std::vector<PhaseCurve> phases_of(const std::vector<BodeCurve>& curves) {
   std::vector<PhaseCurve> phases;
@@ -178,8 +186,11 @@ std::vector<CurvesPanel> bode_panels(const std::string& unit,
       const double size = std::abs(curve.response[lines[i]]);
       return std::pair(size, size * std_of(lines[i]));
     });
-    auto angles = gapped(curve, lines, [&](std::size_t i) {
-      return std::pair(phases[c].phase_deg[lines[i]], kDegreesPerRadian * std_of(lines[i]));
+    const BodeCurve turned = where_known(curve, phases[c]);
+    const auto turned_lines = drawn_lines(turned, true);
+    auto angles = gapped(turned, turned_lines, [&](std::size_t i) {
+      const std::size_t line = turned_lines[i];
+      return std::pair(phases[c].phase_deg[line], kDegreesPerRadian * std_of(line));
     });
     magnitude.series.push_back(to_series(curve, curve.role, sizes, has_std));
     phase.series.push_back(to_series(curve, curve.role, angles, has_std));

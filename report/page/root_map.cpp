@@ -2,6 +2,7 @@
 
 #include "report/figures/sensor_label.hpp"
 #include "report/page/page_words.hpp"
+#include "report/tables/zero_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -126,7 +127,8 @@ void add_root(MapBlock& map, const MapSeries& series, const MeasuredRoot& root) 
   const double zeta = root.damping_ratio.value_or(0.0);
   MapPoint point{
       .mark = root.mark,
-      .non_minimum_phase = root.mark == Mark::zero && zeta < 0.0,
+      .non_minimum_phase = root.mark == Mark::zero &&
+                           is_non_minimum_phase(root.damping_ratio, root.damping_ratio_std),
       .series = series.name,
       .role = series.role,
       .details = {{"frequency", with_error(root.frequency_Hz, root.frequency_std_Hz, "Hz")},

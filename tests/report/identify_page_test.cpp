@@ -1,15 +1,23 @@
 #include "report/page/identify_page.hpp"
 
 #include "report/json/identification_json.hpp"
+#include "report/page/page_curves.hpp"
+#include "report/page/root_map.hpp"
 #include "report/tables/identification_tables.hpp"
 #include "report/tables/identified_overview.hpp"
+#include "report/tables/zero_kind.hpp"
 #include "tests/report/identified_sample.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <complex>
+#include <numbers>
 #include <string>
+#include <variant>
+#include <vector>
 
 namespace flexarm::report::page {
 namespace {
@@ -84,6 +92,43 @@ TEST(IdentifyPage, ARefusedFitIsNoDoubt) {
   EXPECT_THAT(doubts(sample.identification), IsEmpty());
   EXPECT_EQ(state_of(sample), "identified");
   EXPECT_THAT(page_of(sample).verdict.sentence, Not(HasSubstr("converge")));
+}
+
+TEST(IdentifyPage, AZeroIsNonMinimumPhaseBeyondItsInterval) {
+  const auto is_marked = [](double damping_ratio) {
+    MapBlock map = root_map("map", "Torque to hub angle", "");
+    add_root(map, {"measured", Role::measured},
+             {Mark::zero, "zero 1", 2.9, 0.01, damping_ratio, 0.002});
+    return map.points.front().non_minimum_phase;
+  };
+  EXPECT_FALSE(is_marked(0.01));
+  EXPECT_FALSE(is_marked(-0.001)) << "half a standard error";
+  EXPECT_TRUE(is_marked(-0.005));
+  measured::FittedZero zero{.s_rad_per_s = {0.01, 18.0}, .damping_ratio = -0.001};
+  zero.damping_ratio_std = 0.002;
+  EXPECT_FALSE(is_non_minimum_phase(zero));
+  zero.damping_ratio_std = 0.0004;
+  EXPECT_TRUE(is_non_minimum_phase(zero));
+  zero = {.s_rad_per_s = 57.0, .frequency_std_Hz = 1.0, .damping_ratio = -1.0};
+  EXPECT_TRUE(is_non_minimum_phase(zero)) << "of a tip";
+  zero.frequency_std_Hz = 10.0;
+  EXPECT_FALSE(is_non_minimum_phase(zero));
+}
+
+TEST(IdentifyPage, PhasesOfFitAndArmFileAreOnOneBranch) {
+  BodeCurve arm{"arm file", Role::before, {1, 2, 3, 4, 5, 6}, {1.0, -1.0, -1.0, 1.0, 1.0, -1.0}};
+  BodeCurve fit{"fit", Role::after, arm.frequency_Hz, {}};
+  for (const double phase_deg : {0.0, -180.0, -200.0, -300.0, -358.0, -535.0}) {
+    fit.response.push_back(std::polar(1.0, phase_deg * std::numbers::pi / 180.0));
+  }
+  const auto panels = bode_panels("rad/(N m)", {arm, fit});
+  const auto& shown = std::get<Samples>(panels.at(1).series.at(1).data);
+  const auto& phase = std::get<std::vector<float>>(shown.y);
+  ASSERT_EQ(phase.size(), 6U);
+  EXPECT_TRUE(std::isnan(phase[3])) << "a gap where the fit turns the other way";
+  EXPECT_NEAR(phase[2], -200.0, 1e-3);
+  EXPECT_NEAR(phase[4], 2.0, 1e-3);
+  EXPECT_NEAR(phase[5], -175.0, 1e-3);
 }
 
 }  // namespace

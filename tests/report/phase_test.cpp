@@ -73,6 +73,14 @@ TEST(TurnTowards, MovesEachPieceByWholeTurnsToTheReference) {
   EXPECT_THAT(measured.phase_deg, ElementsAre(-12, -95, IsNan(), -275, -365, -470));
 }
 
+TEST(TurnTowards, GoesOnATurnNearerWhereACurveRunsAway) {
+  // Half a turn up at the zero of an undamped arm, down at that of a fit to the right of the axis.
+  const PhaseCurve model{{1, 2, 3, 4, 5, 6}, {0, -180, -180, 0, 0, -180}};
+  PhaseCurve fit{{1, 2, 3, 4, 5, 6}, {0, -180, -200, -300, -358, -540}};
+  turn_towards(model, fit);
+  EXPECT_THAT(fit.phase_deg, ElementsAre(0, -180, -200, IsNan(), 2, -180));
+}
+
 TEST(PrincipalTurn, BringsTheFirstPhaseToItsPrincipalValue) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(to_principal_turn_deg({kNone, -540, 100}), 360.0);

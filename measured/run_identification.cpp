@@ -345,7 +345,7 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
     if (!go_on("spectra of " + run.run.id, spectra_share * done)) return made;
     RunIdentification studied{.run = run.run, .findings = findings[made.runs.size()]};
     try {
-      if (arm::is_over(options.deadline)) throw arm::InputError(kNoTimeLeft);
+      arm::require_time(options.deadline);
       if (auto* time = std::get_if<TimeRecord>(&run.data)) {
         study_time_run(*time, options, studied);
       } else if (const auto* frequency = std::get_if<FrequencyRecord>(&run.data)) {
@@ -356,6 +356,8 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
       }
     } catch (const arm::InputError& error) {
       studied.refusal = error.what();
+    } catch (const arm::Cancelled&) {
+      studied.refusal = kNoTimeLeft;
     }
     read_off(studied, options.peaks.place, made.readings);
     made.runs.push_back(std::move(studied));
@@ -371,19 +373,20 @@ Identification identify(std::vector<MeasuredRun> runs, const IdentificationOptio
     RunsFit& group = groups[g];
     ModalFitOptions own = options.modal_fit;
     own.progress = [&](double fraction) {
+      arm::require_time(options.deadline);
       const double all = (static_cast<double>(g) + fraction) / static_cast<double>(groups.size());
-      return !arm::is_over(options.deadline) &&
-             go_on("fit of " + made.runs[group.runs.front()].run.id,
+      return go_on("fit of " + made.runs[group.runs.front()].run.id,
                    spectra_share + (1.0 - spectra_share) * all);
     };
     try {
-      if (arm::is_over(options.deadline)) throw arm::InputError(kNoTimeLeft);
+      arm::require_time(options.deadline);
       fit(group, runs, made.runs, own, options.total_inertia_kg_m2);
-      if (group.fit.cancelled && arm::is_over(options.deadline)) throw arm::InputError(kNoTimeLeft);
     } catch (const arm::InputError& error) {
       group.refusal = error.what();
+    } catch (const arm::Cancelled&) {
+      group.refusal = kNoTimeLeft;
     }
-    if (group.fit.cancelled && group.refusal.empty()) return made;
+    if (group.fit.cancelled) return made;
     if (group.refusal.empty()) {
       read_off({Method::rational_fit, ids_of(group, made.runs), std::nullopt, group.payload, {}},
                modal_table(group.fit, kMostZeroDamping), group.hub_held, made.readings);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -58,17 +59,22 @@ std::vector<Candidate> grid(const BlockSearchOptions& options) {
   return places;
 }
 
-/// Columns y_j and of the model of some blocks among `all`, on the triangles of all.
+/// Columns y_j and of the model of some blocks among `all`, on the triangles of all. `look` is
+/// called before each pass over a stretch.
 class CandidateTriangles {
  public:
   CandidateTriangles(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
-                     const BlockSet& all, const ColumnChoices& choices)
+                     const BlockSet& all, const ColumnChoices& choices,
+                     const std::function<bool()>& look)
       : stretches_(stretches), all_(all), signals_(all) {
     // Signals of derivatives are not needed. Held blocks have none, but no free motion either.
     if (std::ranges::none_of(stretches, &Stretch::begins_in_motion)) {
       signals_.held = signals_.blocks.size();
     }
-    triangles_ = triangles(stretches, signals_);
+    for (const Stretch& stretch : stretches) {
+      if (look) look();
+      triangles_.push_back(triangle(stretch, signals_));
+    }
     for (std::size_t j = 0; j < sensors.size(); ++j) {
       models_.push_back(sensor_model(sensors[j], static_cast<Index>(j), all, stretches, choices));
     }
@@ -117,10 +123,10 @@ class CandidateTriangles {
 /// The candidate that lowers the criterion most beside `held`, an index into `candidates`.
 std::size_t best_of(std::span<const Stretch> stretches, std::span<const arm::Sensor> sensors,
                     const BlockSet& held, const std::vector<Candidate>& candidates,
-                    const ColumnChoices& choices) {
+                    const ColumnChoices& choices, const std::function<bool()>& look) {
   BlockSet all = held;
   for (const Candidate& candidate : candidates) all.blocks.push_back(candidate.block);
-  const CandidateTriangles of_all(stretches, sensors, all, choices);
+  const CandidateTriangles of_all(stretches, sensors, all, choices, look);
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < candidates.size(); ++c) {
@@ -219,7 +225,8 @@ class Search {
   }
 
   bool try_one(std::vector<Candidate>& candidates) {
-    const std::size_t at = best_of(stretches_, sensors_, best_.blocks, candidates, choices_);
+    const std::size_t at =
+        best_of(stretches_, sensors_, best_.blocks, candidates, choices_, projection_.go_on);
     const Candidate candidate = candidates[at];
     candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(at));
     BlockSet more = best_.blocks;

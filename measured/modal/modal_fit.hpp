@@ -57,7 +57,8 @@ struct ModalFitOptions {
   /// covariance are known; empty: that.
   std::function<Eigen::MatrixXd(const ModalFit&)> covariance = {};
   int most_iterations = 60;
-  /// Called now and then with the fraction done; false ends the fit, which then says nothing.
+  /// Called now and then with the fraction done; false ends the fit, which then says nothing, and
+  /// what it throws passes through.
   std::function<bool(double fraction)> progress = {};
 };
 

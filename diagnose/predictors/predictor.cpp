@@ -377,41 +377,36 @@ ModeChoice modes_needed(const Experiment& experiment, const Observations& observ
   for (const auto& run : experiment.runs) {
     runs.push_back(run.run.kind == measured::RunKind::time);
   }
-  const ModeChoice fewest{kFewestModes, std::vector<double>(observations.channels.size(), 0.0)};
-  ModeChoice choice = fewest;
+  ModeChoice choice{kFewestModes, std::vector<double>(observations.channels.size(), 0.0)};
   if (std::ranges::count(runs, true) == 0) return choice;
   const auto shown = [&](int flexible_modes) {
     return Predictor(experiment, observations, flexible_modes, {}, deadline)(experiment.arm, runs);
   };
-  Eigen::VectorXd most;
+  ModeChoice known = choice;  // the last one whose errors are
   try {
-    most = shown(kMostModes);
+    const Eigen::VectorXd most = shown(kMostModes);
+    for (; choice.flexible_modes < kMostModes; choice.flexible_modes += 2) {
+      const Eigen::VectorXd off = shown(choice.flexible_modes) - most;
+      bool is_enough = true;
+      for (std::size_t c = 0; c < observations.channels.size(); ++c) {
+        const ObservedChannel& channel = observations.channels[c];
+        if (!runs[channel.run]) continue;
+        const auto size = [&channel](const Eigen::VectorXd& all) {
+          const auto signal = all.segment(channel.first, channel.count).array();
+          return (signal - signal.mean()).matrix().norm();
+        };
+        const double error = off.segment(channel.first, channel.count).norm();
+        const double simulated = size(most);
+        // A hub that friction holds for the whole run has no signal of its own.
+        const double signal = simulated > 0.0 ? simulated : size(observations.values);
+        choice.errors[c] = error > 0.0 ? error / signal : 0.0;
+        is_enough = is_enough && choice.errors[c] <= std::max(kModeError, 0.1 * channel.noise);
+      }
+      if (is_enough) break;
+      known = choice;
+    }
   } catch (const arm::Cancelled&) {
-    return fewest;
-  }
-  for (; choice.flexible_modes < kMostModes; choice.flexible_modes += 2) {
-    Eigen::VectorXd off;
-    try {
-      off = shown(choice.flexible_modes) - most;
-    } catch (const arm::Cancelled&) {
-      return fewest;
-    }
-    bool is_enough = true;
-    for (std::size_t c = 0; c < observations.channels.size(); ++c) {
-      const ObservedChannel& channel = observations.channels[c];
-      if (!runs[channel.run]) continue;
-      const auto size = [&channel](const Eigen::VectorXd& all) {
-        const auto signal = all.segment(channel.first, channel.count).array();
-        return (signal - signal.mean()).matrix().norm();
-      };
-      const double error = off.segment(channel.first, channel.count).norm();
-      const double simulated = size(most);
-      // A hub that friction holds for the whole run has no signal of its own.
-      const double signal = simulated > 0.0 ? simulated : size(observations.values);
-      choice.errors[c] = error > 0.0 ? error / signal : 0.0;
-      is_enough = is_enough && choice.errors[c] <= std::max(kModeError, 0.1 * channel.noise);
-    }
-    if (is_enough) break;
+    return known;
   }
   return with_truncation(experiment, observations, deadline, std::move(choice));
 }

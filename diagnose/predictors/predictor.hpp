@@ -149,7 +149,8 @@ struct ModeChoice {
 /// The fewest modes with which the simulated runs are within `kModeError` of a signal's deviation,
 /// or a tenth of its noise if that is more, of those with `kMostModes`; these where none suffice.
 /// The errors are those, or response::truncation_in_time where that is more.
-/// After the deadline kFewestModes, without errors.
+/// At the deadline the number tried last, with its errors; kFewestModes without any where there is
+/// none.
 ModeChoice modes_needed(const Experiment& experiment, const Observations& observations,
                         const arm::Deadline& deadline = {});
 inline constexpr double kModeError = 1e-4;

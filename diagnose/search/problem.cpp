@@ -43,7 +43,9 @@ void widen(Observations& observations, const std::vector<double>& errors) {
 Predictor predictor_for(const Experiment& experiment, Observations& observations,
                         const ProblemOptions& options) {
   ModeChoice modes{options.flexible_modes.value_or(0)};
-  if (!options.flexible_modes) modes = modes_needed(experiment, observations, options.deadline);
+  if (!options.flexible_modes) {
+    modes = modes_needed(experiment, observations, arm::halfway(options.deadline));
+  }
   if (is_driven_by_motion(experiment)) {
     modes.errors.resize(observations.channels.size(), 0.0);
     const auto of_motion =

@@ -21,7 +21,8 @@ struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
   /// Of `time` runs: stochastic grey box with it, output error without.
   std::optional<NoiseModel> noise = {};
-  arm::Deadline deadline = {};  ///< of its evaluations (Predictor); those for the modes end with it
+  /// Of its evaluations (Predictor); those that choose the modes end half-way to it.
+  arm::Deadline deadline = {};
 };
 
 /// An experiment with all that is needed to hold a candidate against it.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,17 @@ TEST(Problem, WhatAnArmShowedLastIsThatOfThisArm) {
   EXPECT_NE(shown(other), first);
   EXPECT_EQ(shown(other), Problem(experiment).predictor()(other, all));
   EXPECT_EQ(shown(experiment.arm), first);
+}
+
+TEST(ModesNeeded, AreTheFewestAfterTheDeadline) {
+  const Experiment experiment = simulated_experiment({});
+  const Observations observations = observe(experiment);
+  const ModeChoice made = modes_needed(experiment, observations, std::chrono::steady_clock::now());
+  EXPECT_EQ(made.flexible_modes, kFewestModes);
+  EXPECT_EQ(made.errors, std::vector<double>(observations.channels.size(), 0.0));
+  const ModeChoice whole = modes_needed(experiment, observations);
+  EXPECT_GE(whole.flexible_modes, kFewestModes);
+  EXPECT_NE(whole.errors, made.errors);
 }
 
 }  // namespace

@@ -179,8 +179,15 @@ ColumnMappings mapping_by_header(const ForeignColumn& column, const ColumnMappin
 
 bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale) {
   constexpr double kAlike = 0.01;
+  constexpr double kTwoDigits = 0.05;  // 1.05 as 1.1
   const double own = conversion_of(standard_name, unit).value_or(1.0);
-  return own != 1.0 && std::abs(std::abs(scale) / own - 1.0) < kAlike;
+  const double off = std::abs(std::abs(scale) / own - 1.0);
+  if (own == 1.0 || off > kTwoDigits) return false;
+  if (off < kAlike) return true;
+  throw InputError(fmt::format(
+      "scale = {0:.6g}: {1:.2g} % off the conversion of {2}, {3:.6g}; write unit {4}, with scale "
+      "{0:.9g} if it is the whole conversion, {5:.9g} if it is in {2}",
+      scale, 100.0 * off, unit, own, si_unit_of(standard_name), scale * own));
 }
 
 bool is_unit_of(std::string_view standard_name, std::string_view unit) {

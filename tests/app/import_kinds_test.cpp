@@ -143,6 +143,24 @@ TEST_F(ImportKinds, AScaleIsInItsUnit) {
   EXPECT_DOUBLE_EQ(angle("tip_displacement=th:mm:0.001"), 0.09);
   EXPECT_DOUBLE_EQ(angle("tip_acceleration=th:g:9.81"), 90.0 * 9.80665);
   EXPECT_DOUBLE_EQ(angle("hub_angle=th:counts:0.25"), 22.5);
+  EXPECT_DOUBLE_EQ(angle("hub_angle=th:rad:0.0171"), 0.0171 * 90.0);
+}
+
+TEST_F(ImportKinds, AScaleNearTheConversionOfItsUnitIsRefused) {
+  write("scale.csv", "t [s],tau [N m],th\n0,0,90\n1,1,90\n2,2,90\n");
+  expect_refused(
+      import({"scale.csv", "--column", "hub_angle=th:deg:0.0171"}),
+      "--column hub_angle=th:deg:0.0171: scale = 0.0171: 2 % off the conversion of deg, 0.0174533; "
+      "write unit rad, with scale 0.0171 if it is the whole conversion, 0.000298451302 if it is in "
+      "deg");
+  for (const auto* column :
+       {"hub_angle=th:deg:-0.017", "hub_angle=th:deg:0.018", "hub_angle=th:rev:6.1",
+        "hub_velocity=th:rpm:0.1", "hub_velocity=th:deg/s:0.0178", "tip_acceleration=th:g:10",
+        "tip_displacement=th:inch:0.025", "tip_displacement=th:mm:0.00098"}) {
+    EXPECT_THAT(import({"scale.csv", "--column", column}).errors,
+                HasSubstr("% off the conversion of"))
+        << column;
+  }
 }
 
 Complex compliance(double frequency_Hz) {

@@ -114,6 +114,7 @@ class ResponseMaker {
  public:
   ResponseMaker(const ForeignTable& table, const PartColumn& frequency)
       : table_(table), frequency_(frequency) {
+    require_part(frequency);
     hertz_ = hertz_in_one(frequency.unit.empty() ? "Hz" : frequency.unit);
     if (hertz_ == 0.0) {
       throw InputError(fmt::format("frequency {} in {}: must be in Hz, kHz, rad/s or rpm",

@@ -4,6 +4,8 @@
 #include "measured/files/response_unit.hpp"
 #include "measured/files/unit_spelling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -134,12 +136,19 @@ string_view field_of(const ForeignTable& table, string_view name) {
   return is_field ? name.substr(point + 1) : name;
 }
 
+std::string fault_of_factor(const NameFactor& factor) {
+  return fmt::format("its name has {}; write the numbers without it", factor.factor);
+}
+
 /// The frequencies in a column that is called so and whose unit is one of frequencies or not told.
 std::optional<PartColumn> frequencies_of(const ForeignTable& table, std::size_t place) {
   const ForeignColumn& column = table.columns[place];
   if (column.is_text()) return std::nullopt;
-  const std::string letters = plain_letters(split_column_name(field_of(table, column.name)).base);
+  const std::string base = split_column_name(field_of(table, column.name)).base;
+  const auto factor = factor_in(base);
+  const std::string letters = plain_letters(factor ? factor->rest : base);
   PartColumn part{ResponsePart::frequency, "", place, column.unit};
+  if (factor) part.fault = fault_of_factor(*factor);
   if (is_among(kRadianWords, letters) && (part.unit.empty() || part.unit == "rad/s")) {
     part.is_unit_assumed = part.unit.empty();
     part.unit = "rad/s";
@@ -183,7 +192,8 @@ std::string fault_of(ResponsePart part, string_view name, const std::vector<Name
   if (part == ResponsePart::phase && has(kLagWords)) {
     return "a lag, whose sign is the other one; negate it, and call it phase";
   }
-  return "";
+  const auto factor = factor_in(name);
+  return factor ? fault_of_factor(*factor) : "";
 }
 
 std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t place) {

@@ -163,6 +163,44 @@ TEST_F(ImportKinds, AScaleNearTheConversionOfItsUnitIsRefused) {
   }
 }
 
+TEST_F(ImportKinds, AFactorInANameIsNeverIgnored) {
+  const std::string rows = "0,1,90\n1,2,90\n2,3,90\n";
+  for (const std::string header :
+       {"Angle*100 (deg)", "100*Angle (deg)", "Angle x 100 [deg]", "Angle \xc3\x97 100 [deg]",
+        "Angle/100 (deg)", "theta^2 (rad)", "Angle (deg)*10", "Angle [deg] x 10",
+        "hub_angle*1e3 [rad]", "Winkel*0.01 [Grad]", "Angle (deg x 10)", "Angle (deg*10)",
+        "\"Angle (deg, x10)\"", "Angle (theta*10 in deg)", "1e3 x angle"}) {
+    write("factor.csv", "t [s],tau [N m]," + header + "\n" + rows);
+    const Ended refused = import({"factor.csv"});
+    EXPECT_EQ(refused.status, 2) << header;
+    EXPECT_THAT(refused.errors, HasSubstr("may be hub_angle, but")) << header;
+    EXPECT_EQ(std::ranges::count(refused.errors, '\n'), 1) << refused.errors;
+  }
+  write("factor.csv", "t [s],tau [N m],Angle*100 (deg)\n" + rows);
+  EXPECT_THAT(import({"factor.csv"}).errors,
+              HasSubstr("Angle*100 (deg) may be hub_angle, but its name has *100; state its "
+                        "numbers with --column 'hub_angle=Angle*100:UNIT:SCALE', SCALE 1/100 where "
+                        "they are 100 times hub_angle"));
+  const auto stated = record({"factor.csv", "--column", "hub_angle=Angle*100:deg:1/100"});
+  EXPECT_DOUBLE_EQ(stated.channels.at(0).values.at(0), 0.9 * std::numbers::pi / 180.0);
+  write("factor.csv", "t [s],tau/10 (N m),theta [rad]\n" + rows);
+  EXPECT_THAT(import({"factor.csv"}).errors,
+              HasSubstr("tau/10 (N m) may be torque, but its name has /10"));
+  write("factor.csv", "time*1000 (s),tau [N m],theta [rad]\n" + rows);
+  EXPECT_THAT(import({"factor.csv"}).errors, HasSubstr("time: column not recognised"));
+  write("factor.csv", "f*1000 (Hz),mag [dB],phase [deg]\n" + rows);
+  expect_refused(import({"factor.csv"}),
+                 "factor.csv: frequency f*1000 (Hz): its name has *1000; write the numbers without "
+                 "it");
+  write("factor.csv", "f (Hz),mag [dB],phase/10 [deg]\n" + rows);
+  EXPECT_THAT(import({"factor.csv"}).errors,
+              HasSubstr("phase phase/10 [deg]: its name has /10; write the numbers without it"));
+  // No factors: a power in a unit, a ratio, an index.
+  write("plain.csv",
+        "t [s],tau [N m],hub angle 1/2 [rad],acc 2 [m/s^2; filtered]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n");
+  EXPECT_EQ(record({"plain.csv"}).channels.size(), 2U);
+}
+
 Complex compliance(double frequency_Hz) {
   const Complex s(0.0, 2.0 * std::numbers::pi * frequency_Hz);
   return 1.0 / (0.01 * s * s + 0.01 * s);

@@ -106,8 +106,7 @@ double hertz_of(const UniversalAxis& axis, const std::string& name, ForeignFile&
   }
   const double hertz = hertz_in_one(unit);
   if (hertz > 0.0) return hertz;
-  throw InputError(fmt::format("{}: frequencies in {}; must be in Hz, kHz, rad/s or rpm",
-                               arm::shown(name), arm::shown(unit)));
+  throw no_unit_of_frequencies(arm::shown(name), unit);
 }
 
 /// Says where the node's direction is against the axis, and where only data set 164 has units.

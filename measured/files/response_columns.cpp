@@ -116,10 +116,7 @@ class ResponseMaker {
       : table_(table), frequency_(frequency) {
     require_part(frequency);
     hertz_ = hertz_in_one(frequency.unit.empty() ? "Hz" : frequency.unit);
-    if (hertz_ == 0.0) {
-      throw InputError(fmt::format("frequency {} in {}: must be in Hz, kHz, rad/s or rpm",
-                                   shown(frequency), arm::shown(frequency.unit)));
-    }
+    if (hertz_ == 0.0) throw no_unit_of_frequencies(shown(frequency), frequency.unit);
     if (frequency.unit.empty() || frequency.is_unit_assumed) {
       note(fmt::format("unit of {} not given; {} assumed", shown(frequency),
                        frequency.unit.empty() ? "Hz" : frequency.unit));

@@ -95,6 +95,44 @@ TEST_F(ImportKinds, EmptyCellsAreMissingSamples) {
   EXPECT_THAT(split.output, AllOf(HasSubstr("run cells-1"), HasSubstr("run cells-2")));
 }
 
+TEST_F(ImportKinds, MissingSamplesOfAJoinedFileAreMissingSamplesOfTheRun) {
+  std::string torque = "t [s],torque [N m]\n";
+  for (int k = 0; k < 400; ++k) torque += fmt::format("{:.3f},{}\n", 0.005 * k, k % 7);
+  write("torque.csv", torque);
+  // The angle at other times; `cell` stands in rows 300 to `last`, and 9.9E37 at 1 s.
+  const auto write_angle = [&](const std::string& cell, int last) {
+    std::string angle = "t [s],hub_angle [rad]\n";
+    for (int k = 0; k < 1000; ++k) {
+      const std::string number = fmt::format("{:.9f}", std::sin(0.006 * k));
+      const bool is_unread = !cell.empty() && k == 500;
+      const bool is_missing = !cell.empty() && k >= 300 && k < last;
+      angle += fmt::format("{:.3f},{}\n", 0.002 * k,
+                           is_unread    ? "9.9E37"
+                           : is_missing ? (cell == "-" ? "" : cell)
+                                        : number);
+    }
+    write("angle.csv", angle);
+  };
+  const std::vector<std::string> join = {"torque.csv", "angle.csv", "--join", "--join-grid",
+                                         "first"};
+  write_angle("", 0);
+  const auto whole = record(join);
+  for (const auto* cell : {"-", "NaN", "N/A"}) {
+    write_angle(cell, 302);
+    const auto joined = record(join);
+    ASSERT_EQ(joined.time_s.size(), whole.time_s.size()) << cell;
+    EXPECT_EQ(joined.torque_N_m.size(), whole.torque_N_m.size());
+    for (std::size_t k = 0; k < joined.time_s.size(); ++k) {
+      // A line over 10 ms of the sine is off by 1.1e-4.
+      EXPECT_NEAR(joined.channels[0].values[k], whole.channels[0].values[k], 2e-4) << k;
+    }
+    EXPECT_THAT(output_, AllOf(HasSubstr("as missing samples"),
+                               HasSubstr("1 cell of column hub_angle [rad] with 9.9e+37")));
+  }
+  write_angle("-", 400);
+  EXPECT_THAT(import(join).output, AllOf(HasSubstr("run torque-1"), HasSubstr("run torque-2")));
+}
+
 TEST_F(ImportKinds, ATorqueOfItsOwnRateIsHeldWhereThatIsStated) {
   std::string text = "t [s],torque [N m],hub_angle [rad]\n";
   for (int k = 0; k < 100; ++k) {

@@ -218,7 +218,12 @@ void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
   if (imported.kind == RunKind::modal) {
     imported.data = measured::parse_modal_table(csv, name);
   } else {
-    imported.data = measured::parse_frequency_record(csv, name);
+    measured::FrequencyRecord record = measured::parse_frequency_record(csv, name);
+    for (const auto& channel : record.channels) {
+      std::ranges::move(doubtful_parts(channel.response, arm::to_string(channel.sensor)),
+                        std::back_inserter(imported.warnings));
+    }
+    imported.data = std::move(record);
   }
 }
 

@@ -84,7 +84,7 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
   values.reserve(numbers.size());
   for (row = 0; row < numbers.size(); ++row) {
     values.push_back(unit.to_si(numbers[row] * mapping.scale));
-    if (std::isfinite(values.back()) && !is_over_range(numbers[row])) continue;
+    if (std::isfinite(values.back()) && is_reading(numbers[row])) continue;
     throw InputError(fmt::format(
         "{}: {} = {}{}: must be a finite number{}", source.name, what, numbers[row],
         table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)",

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -40,7 +39,7 @@ std::vector<std::string> doubtful_signs(std::span<const double> values, const st
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
     for (const double value : values) {
-      if (std::isnan(value) || value == sign) continue;
+      if (!is_reading(value) || value == sign) continue;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }

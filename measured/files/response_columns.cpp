@@ -269,13 +269,15 @@ class ResponseMaker {
     std::vector<std::size_t> lines;
     for (std::size_t line = 0; line < frequencies.size(); ++line) {
       const bool is_whole = std::ranges::all_of(columns, [&](std::size_t column) {
-        return std::isfinite(table_.columns[column].values[line]);
+        return is_reading(table_.columns[column].values[line]);
       });
-      if (is_whole && std::isfinite(frequencies[line])) lines.push_back(line);
+      if (is_whole && is_reading(frequencies[line])) lines.push_back(line);
     }
     if (lines.size() < frequencies.size()) {
-      note(fmt::format("{} of {} lines left out: a cell is empty or not finite",
-                       frequencies.size() - lines.size(), frequencies.size()));
+      note(
+          fmt::format("{} of {} lines left out: a cell is empty, not finite or an instrument's "
+                      "sign of no measurement",
+                      frequencies.size() - lines.size(), frequencies.size()));
     }
     if (lines.empty()) throw InputError("no line has a frequency and a response");
     std::ranges::stable_sort(lines, {}, [&](std::size_t line) { return frequencies[line]; });

@@ -341,6 +341,45 @@ TEST_F(ImportKinds, UnitsOfResponsesAreTakenApart) {
                  "--column hub_angle=NAME:UNIT:SCALE");
 }
 
+TEST_F(ImportKinds, SignsOfNoMeasurementAreLookedForInResponses) {
+  const auto expect_warned = [&](const std::string& warning) {
+    const auto record = response({"signs"});
+    ASSERT_EQ(record.channels.size(), 1U);
+    EXPECT_EQ(record.channels[0].response.size(), 99U);
+    EXPECT_THAT(output_, AllOf(HasSubstr("1 of 100 lines left out"), HasSubstr(warning)));
+  };
+  const auto polar = [](double f, Complex h) {
+    return fmt::format("{},{},{}", f,
+                       f == 5.0 ? "9.9E+37" : fmt::format("{}", 20.0 * std::log10(std::abs(h))),
+                       f == 7.0 ? -9999.0 : std::arg(h) * 180.0 / std::numbers::pi);
+  };
+  write("signs", response_text("Frequency (Hz),Magnitude (dB),Phase (deg)", polar));
+  expect_warned("hub_angle: 1 cell of column Phase (deg) is -9999");
+  const auto cartesian = [](double f, Complex h) {
+    return fmt::format("{},{},{}", f, f == 5.0 ? -9.91e37 : h.real(),
+                       f == 7.0 ? -32768.0 : h.imag());
+  };
+  write("signs", response_text("Frequency (Hz),Re [rad/(N m)],Im [rad/(N m)]", cartesian));
+  expect_warned("hub_angle: 1 cell of column Im [rad/(N m)] is -32768");
+  measured::UniversalFunction function;
+  function.id[0] = "hub_angle";
+  function.type = measured::kUniversalFrequencyResponse;
+  function.abscissa_axis = {18, 0, 0, 0, "Frequency", "Hz"};
+  for (int k = 1; k <= 100; ++k) {
+    function.abscissa.push_back(0.5 * k);
+    function.real.push_back(k == 10 ? 9.9e37 : compliance(0.5 * k).real());
+    function.imaginary.push_back(k == 14 ? -9999.0 : compliance(0.5 * k).imag());
+  }
+  for (const bool binary : {true, false}) {
+    write("signs", measured::format_universal_file({function}, {.binary = binary}));
+    expect_warned("hub_angle: 1 cell of column im is -9999");
+  }
+  write("signs", "frequency [Hz],sensor,re,im\n0.5,hub_angle,1,2\n1,hub_angle,9.9E37,1\n");
+  EXPECT_THAT(import({"signs"}).errors,
+              HasSubstr("signs:3: re = 9.9e+37: an instrument's sign of no measurement; must be a "
+                        "measured number, or the row left out"));
+}
+
 TEST_F(ImportKinds, ModesOfAUniversalFileAreAModalTable) {
   const auto mode = [](int analysis, int number, const std::vector<double>& reals) {
     std::string text = "    -1\n    55\n";

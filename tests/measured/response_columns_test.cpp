@@ -211,7 +211,8 @@ TEST(ResponseColumns, WhatIsNotToldIsAssumedAndSaid) {
   EXPECT_NEAR(std::abs(made.responses[0].response[0]), std::pow(10.0, -0.3), 1e-15);
   EXPECT_THAT(made.notes, Contains("unit of mag not given; dB assumed"));
   EXPECT_THAT(made.notes, Contains("unit of phase not given; deg assumed"));
-  EXPECT_THAT(made.notes, Contains("2 of 4 lines left out: a cell is empty or not finite"));
+  EXPECT_THAT(made.notes, Contains("2 of 4 lines left out: a cell is empty, not finite or an "
+                                   "instrument's sign of no measurement"));
   const auto unclear = parse_foreign_table("f,mag,phase\n1,1,-8\n2,1,-9\n", "a.csv");
   EXPECT_THROW(responses_in(unclear), arm::InputError);
 }

@@ -132,8 +132,8 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
   std::vector<ColumnLabel> labels;
   for (const auto& column : table.columns) {
-    labels.push_back({column.name, column.unit, column.is_text() || column.holds_nothing(),
-                      column.is_stamp, column.path});
+    const bool is_no_quantity = column.is_text() || column.holds_nothing() || column.is_left_out;
+    labels.push_back({column.name, column.unit, is_no_quantity, column.is_stamp, column.path});
   }
   return labels;
 }

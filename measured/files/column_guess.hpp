@@ -18,7 +18,7 @@ struct ColumnLabel {
   std::string path = {};  ///< where it stands in a file of structures; empty: by name
 };
 
-/// The labels of the columns of a table; one without a number is as one of text.
+/// The labels of the columns of a table; one without a number, or left out, is as one of text.
 std::vector<ColumnLabel> labels_of(const ForeignTable& table);
 
 /// A column whose name tells what was measured, but not as which quantity it is to be read.

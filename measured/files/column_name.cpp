@@ -83,7 +83,7 @@ std::size_t number_end(string_view text, std::size_t begin) {
   return begin + size;
 }
 
-bool is_letter(char c) {
+bool is_name_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
@@ -91,8 +91,8 @@ bool is_letter(char c) {
 bool is_times(string_view text, std::size_t at) {
   if (text[at] == '*') return true;
   const bool is_x = text[at] == 'x' || text[at] == 'X';
-  return is_x && (at == 0 || !is_letter(text[at - 1])) &&
-         (at + 1 == text.size() || !is_letter(text[at + 1]));
+  return is_x && (at == 0 || !is_name_letter(text[at - 1])) &&
+         (at + 1 == text.size() || !is_name_letter(text[at + 1]));
 }
 
 }  // namespace

@@ -312,7 +312,9 @@ class JsonTableBuilder {
       for (std::size_t row = 0; row < rows; ++row) add_text_row(builder, places, row);
       ForeignTable read = builder.finish();
       for (std::size_t i = 0; i < read.columns.size(); ++i) {
-        columns[places[i]] = std::move(read.columns[i]);
+        // Imaginary parts stand behind the others.
+        auto& column = i < places.size() ? columns[places[i]] : columns.emplace_back();
+        column = std::move(read.columns[i]);
       }
       std::ranges::move(read.assumptions, std::back_inserter(out_.table.assumptions));
     }

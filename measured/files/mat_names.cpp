@@ -41,7 +41,7 @@ std::string lower(string_view text) {
 }
 
 /// "units", "channelUnits", "Einheiten".
-bool is_of_units(string_view path) {
+bool names_units(string_view path) {
   const std::string field = mat_field(path);
   return field.ends_with("unit") || field.ends_with("units") || field.ends_with("einheiten") ||
          field.ends_with("unites");
@@ -156,7 +156,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
     const auto* text = list != nullptr && list->size() == 1
                            ? &list->front()
                            : std::get_if<std::string>(&variable.value);
-    if (list != nullptr) (is_of_units(path) ? unit_lists_ : lists_)[owner].push_back(list);
+    if (list != nullptr) (names_units(path) ? unit_lists_ : lists_)[owner].push_back(list);
     if (text != nullptr) {
       texts_[owner.empty() ? std::string(path) : owner + "." + mat_field(path)] = *text;
       if (split_cell(path)) texts_[std::string(path)] = *text;

@@ -37,18 +37,6 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
-/// The name without its unit, and without the structure that it is a field of.
-std::string base_of(string_view name) {
-  std::string base = split_column_name(name).base;
-  for (auto point = base.rfind('.'); point != std::string::npos; point = base.rfind('.')) {
-    // "Beschl." is no structure.
-    if (point + 1 >= base.size() || standard(base)) return base;
-    if (!is_holder(string_view(base).substr(point + 1))) return base.substr(point + 1);
-    base.resize(point);
-  }
-  return base;
-}
-
 /// The factor in the name of a column, beside its unit; x2 alone has none.
 std::optional<NameFactor> factor_of(const ColumnLabel& label) {
   auto factor = factor_in(split_column_name(label.name).base);
@@ -58,7 +46,7 @@ std::optional<NameFactor> factor_of(const ColumnLabel& label) {
 
 std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
   if (factor_of(label)) return {};
-  const std::string base = base_of(label.name);
+  const std::string base = quantity_name(label.name);
   if (const auto quantity = standard(base)) {
     if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
     return {};
@@ -78,7 +66,7 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
 /// it tells nothing.
 std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   const auto factor = factor_of(label);
-  const std::string base = base_of(factor ? factor->rest : label.name);
+  const std::string base = quantity_name(factor ? factor->rest : label.name);
   const std::string letters = plain_letters(base);
   const std::string name = arm::shown(split_column_name(label.name).base);
   const std::string column = arm::shown(label.name);
@@ -128,6 +116,17 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 }
 
 }  // namespace
+
+std::string quantity_name(string_view name) {
+  std::string base = split_column_name(name).base;
+  for (auto point = base.rfind('.'); point != std::string::npos; point = base.rfind('.')) {
+    // "Beschl." is no structure.
+    if (point + 1 >= base.size() || standard(base)) return base;
+    if (!is_holder(string_view(base).substr(point + 1))) return base.substr(point + 1);
+    base.resize(point);
+  }
+  return base;
+}
 
 std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
   std::vector<ColumnLabel> labels;

@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::measured {
@@ -17,6 +18,10 @@ struct ColumnLabel {
   bool is_stamp = false;  ///< times of a clock, which are taken where no column has others
   std::string path = {};  ///< where it stands in a file of structures; empty: by name
 };
+
+/// The name of a column without its unit and the structure that it is a field of: "torque" of
+/// "log.torque.values [N m]".
+std::string quantity_name(std::string_view name);
 
 /// The labels of the columns of a table; one without a number, or left out, is as one of text.
 std::vector<ColumnLabel> labels_of(const ForeignTable& table);

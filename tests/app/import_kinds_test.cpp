@@ -100,6 +100,31 @@ TEST_F(ImportKinds, MissingSamplesOfAJoinedFileAreMissingSamplesOfTheRun) {
   EXPECT_THAT(import(join).output, AllOf(HasSubstr("run torque-1"), HasSubstr("run torque-2")));
 }
 
+TEST_F(ImportKinds, SignalsByNameAreRead) {
+  std::string torque;
+  std::string angle;
+  std::string rows = "time,signal,value,unit\n";
+  for (int k = 0; k < 20; ++k) {
+    torque += fmt::format("{}{}", k == 0 ? "" : ",", k);
+    angle += fmt::format("{}{}", k == 0 ? "" : ",", 10 * k);
+    rows += fmt::format("{0:.3f},tau,{1},N mm\n{0:.3f},theta,{2},deg\n", 0.005 * k, k, 10 * k);
+  }
+  write("signals.json", fmt::format(R"([{{"name":"tau","unit":"N mm","data":[{}],"dt":0.005}},)"
+                                    R"({{"name":"theta","unit":"deg","data":[{}],"dt":0.005}}])",
+                                    torque, angle));
+  write("rows.csv", rows);
+  for (const auto* file : {"signals.json", "rows.csv"}) {
+    const auto made = record({file});
+    ASSERT_EQ(made.time_s.size(), 20U) << file;
+    EXPECT_DOUBLE_EQ(made.time_s[19], 0.095);
+    EXPECT_DOUBLE_EQ(made.torque_N_m[19], 0.019);
+    EXPECT_DOUBLE_EQ(made.channels.at(0).values[18], std::numbers::pi);
+  }
+  write("rows.csv", rows + "0.000,tau,3,N mm\n");
+  expect_refused(import({"rows.csv"}),
+                 "rows.csv: tau: a second value at time = 0 in line 42; must have one at a time");
+}
+
 TEST_F(ImportKinds, ATorqueOfItsOwnRateIsHeldWhereThatIsStated) {
   std::string text = "t [s],torque [N m],hub_angle [rad]\n";
   for (int k = 0; k < 100; ++k) {

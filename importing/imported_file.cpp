@@ -218,7 +218,12 @@ void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
   if (imported.kind == RunKind::modal) {
     imported.data = measured::parse_modal_table(csv, name);
   } else {
-    imported.data = measured::parse_frequency_record(csv, name);
+    measured::FrequencyRecord record = measured::parse_frequency_record(csv, name);
+    for (const auto& channel : record.channels) {
+      std::ranges::move(doubtful_parts(channel.response, arm::to_string(channel.sensor)),
+                        std::back_inserter(imported.warnings));
+    }
+    imported.data = std::move(record);
   }
 }
 
@@ -291,18 +296,19 @@ void leave_out_incomplete(ForeignTable& table, const FileChoice& choice, Importe
 void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
   const std::string name = arm::shown(imported.file);
   if (choice.period_s) add_times(file.table, *choice.period_s);
-  const auto labels = measured::labels_of(file.table);
-  auto to_guess = labels;
+  auto labels = measured::labels_of(file.table);
   for (const auto place : choice.columns.left_out_places(labels)) {
-    to_guess[place].is_text = true;
     file.table.columns[place].is_left_out = true;
   }
   if (choice.controller) {
     // The reference is no other quantity.
-    if (const auto place = choice.columns.reference_place(labels)) to_guess[*place].is_text = true;
+    if (const auto place = choice.columns.reference_place(labels)) {
+      file.table.columns[*place].is_left_out = true;
+    }
   }
+  labels = measured::labels_of(file.table);
   auto guess =
-      measured::guess_columns(to_guess, choice.columns.mappings(labels, imported.assumptions));
+      measured::guess_columns(labels, choice.columns.mappings(labels, imported.assumptions));
   choice.columns.set_time_unit(guess.mappings);
   require_told(guess, labels, file, choice.is_one_of_several);
   std::vector<std::string> names;

@@ -4,6 +4,8 @@
 #include "measured/files/column_guess.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/missing_signs.hpp"
+#include "measured/files/record_constants.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,9 +79,40 @@ void assume_sensor(const ForeignFile& file, measured::ColumnMappings& mappings,
   }
 }
 
+/// Leaves out the lines of the response that hold no measurement, and warns of what may be none.
+void check_lines(const measured::ForeignTable& table, measured::ForeignResponse& response,
+                 const std::string& sensor, ImportedFile& imported) {
+  const auto warn = [&](const std::vector<std::string>& doubts) {
+    imported.warnings.insert(imported.warnings.end(), doubts.begin(), doubts.end());
+  };
+  for (const auto place : response.columns) {
+    warn(measured::doubtful_signs(table.columns[place].values, table.columns[place].name, sensor));
+  }
+  if (response.columns.empty()) warn(doubtful_parts(response.response, sensor));
+  const std::size_t lines = response.response.size();
+  std::size_t kept = 0;
+  for (std::size_t line = 0; line < lines; ++line) {
+    const auto value = response.response[line];
+    const bool is_read = measured::is_reading(response.frequency_Hz[line]) &&
+                         measured::is_reading(value.real()) && measured::is_reading(value.imag());
+    if (!is_read) continue;
+    response.frequency_Hz[kept] = response.frequency_Hz[line];
+    response.coherence[kept] = response.coherence[line];
+    response.response[kept++] = value;
+  }
+  if (kept == lines) return;
+  response.frequency_Hz.resize(kept);
+  response.coherence.resize(kept);
+  response.response.resize(kept);
+  imported.assumptions.push_back(
+      fmt::format("{}: {} of {} lines left out: not finite, or an instrument's sign of no "
+                  "measurement",
+                  sensor, lines - kept, lines));
+}
+
 }  // namespace
 
-void read_responses(const ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
+void read_responses(ForeignFile& file, const FileChoice& choice, ImportedFile& imported) {
   if (choice.columns.is_for_signals() || choice.controller) {
     throw InputError(
         "--compute, --torque, --time-unit, --reference, --own-rate: only for time signals");
@@ -103,6 +136,11 @@ void read_responses(const ForeignFile& file, const FileChoice& choice, ImportedF
   assume_sensor(file, guess.mappings, imported.warnings);
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
   imported.columns = std::move(guess.mappings);
+  for (const auto& [sensor, mapping] : imported.columns) {
+    for (auto& response : file.responses) {
+      if (response.name == mapping.name) check_lines(file.table, response, sensor, imported);
+    }
+  }
   const auto is_read = [&](const std::string& name) {
     return std::ranges::any_of(imported.columns,
                                [&](const auto& entry) { return entry.second.name == name; });
@@ -111,6 +149,18 @@ void read_responses(const ForeignFile& file, const FileChoice& choice, ImportedF
     if (!is_read(response.name)) imported.not_used.push_back(response.name);
   }
   imported.data = frequency_record_of(file, imported.columns, arm::shown(imported.file));
+}
+
+std::vector<std::string> doubtful_parts(std::span<const std::complex<double>> response,
+                                        const std::string& what) {
+  std::vector<std::string> doubts;
+  for (const bool is_real : {true, false}) {
+    std::vector<double> values;
+    for (const auto& value : response) values.push_back(is_real ? value.real() : value.imag());
+    std::ranges::move(measured::doubtful_signs(values, is_real ? "re" : "im", what),
+                      std::back_inserter(doubts));
+  }
+  return doubts;
 }
 
 void take_typed_responses(ForeignFile& file, const FileChoice& choice) {

@@ -3,6 +3,11 @@
 #include "importing/imported_file.hpp"
 #include "measured/files/foreign_file.hpp"
 
+#include <complex>
+#include <span>
+#include <string>
+#include <vector>
+
 namespace flexarm::importing {
 
 /// Puts the responses whose columns are typed by their parts in place of those recognised in the
@@ -13,7 +18,12 @@ void take_typed_responses(measured::ForeignFile& file, const FileChoice& choice)
 /// their names, those in columns by the name of any of their columns. A sole response that tells no
 /// sensor is taken by its unit, or as the hub angle, with a warning. Throws InputError for options
 /// of signals in time, and as `frequency_record_of`.
-void read_responses(const measured::ForeignFile& file, const FileChoice& choice,
-                    ImportedFile& imported);
+///
+/// Lines that hold no measurement are left out, with a note; usual signs of such are warned of.
+void read_responses(measured::ForeignFile& file, const FileChoice& choice, ImportedFile& imported);
+
+/// Returns `doubtful_signs` of the real and imaginary parts.
+std::vector<std::string> doubtful_parts(std::span<const std::complex<double>> response,
+                                        const std::string& what);
 
 }  // namespace flexarm::importing

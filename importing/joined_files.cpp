@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/read_word.hpp"
 #include "measured/files/column_lookup.hpp"
+#include "measured/files/missing_signs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -70,6 +71,24 @@ void require_increasing(const std::vector<double>& times_s) {
   if (times_s.size() < 2) throw InputError("--join needs two samples or more");
 }
 
+/// Leaves out the rows of a file that have no time.
+void leave_out_untimed(std::vector<ForeignColumn>& columns, std::size_t time_place,
+                       const std::string& file, std::vector<std::string>& assumptions) {
+  const std::vector<double> times = columns[time_place].values;
+  const auto untimed = std::ranges::count_if(times, [](double time) { return std::isnan(time); });
+  if (untimed == 0) return;
+  assumptions.push_back(fmt::format("{}: {} of {} rows left out: column {} has no number", file,
+                                    untimed, times.size(), arm::shown(columns[time_place].name)));
+  for (auto& column : columns) {
+    if (column.values.size() != times.size()) continue;
+    std::vector<double> timed;
+    for (std::size_t row = 0; row < times.size(); ++row) {
+      if (!std::isnan(times[row])) timed.push_back(column.values[row]);
+    }
+    column.values = std::move(timed);
+  }
+}
+
 /// A file as signals over its time in s.
 TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
                            std::vector<std::string>& assumptions) {
@@ -84,6 +103,11 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
     std::vector<std::string> names;
     for (const auto& label : labels) names.push_back(label.name);
     const std::size_t place = measured::column_place(names, mapping.name).value();
+    for (auto& column : columns) {
+      const std::string note = measured::take_out_over_range(column, name);
+      if (!note.empty()) assumptions.push_back(note);
+    }
+    leave_out_untimed(columns, place, name, assumptions);
     TimedSignals signals{name, std::move(columns[place].values), {}};
     const auto unit = measured::unit_of("time", mapping.unit).value_or(measured::Unit{});
     for (auto& time : signals.times_s) time = unit.to_si(time * mapping.scale);

@@ -1,12 +1,14 @@
 #include "measured/files/column_builder.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_name.hpp"
 #include "measured/files/delimited_line.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -46,6 +48,12 @@ void ColumnBuilder::add_cell(Column& column, string_view cell) const {
   } else if (is_missing_number(cell)) {
     values.push_back(kMissing);
     if (column.kind == Kind::stamps) column.stamps.emplace_back();
+  } else if (const auto number = parse_complex_cell(cell, decimal_);
+             number && column.kind != Kind::stamps) {
+    column.kind = Kind::numbers;
+    column.imaginary.resize(values.size(), 0.0);
+    values.push_back(number->real());
+    column.imaginary.push_back(number->imag());
   } else if (column.kind == Kind::numbers || has_thousands_separators(cell, decimal_)) {
     throw InputError(
         fmt::format("column {} = {}: {}", arm::shown(column.column.name), arm::shown(cell),
@@ -127,6 +135,23 @@ void ColumnBuilder::find_stray(ForeignColumn& column) const {
   column.stray_row = static_cast<std::size_t>(first - texts.begin());
 }
 
+std::vector<ForeignColumn> ColumnBuilder::take_imaginary_parts() {
+  std::vector<ForeignColumn> parts;
+  for (auto& [column, kind, imaginary, stamps, first_stamp] : columns_) {
+    const bool is_real = std::ranges::all_of(imaginary, [](double value) { return value == 0.0; });
+    if (is_real) continue;
+    imaginary.resize(column.values.size(), 0.0);
+    const ColumnName name = split_column_name(column.name);
+    const std::string base =
+        name.unit.empty() ? name.base : fmt::format("{} [{}]", name.base, name.unit);
+    column.path = std::exchange(column.name, "real part of " + base);
+    parts.push_back({"imaginary part of " + base, column.unit, std::move(imaginary)});
+    assumptions_.push_back(fmt::format("{} holds complex numbers: {}, {}", arm::shown(column.path),
+                                       arm::shown(column.name), arm::shown(parts.back().name)));
+  }
+  return parts;
+}
+
 ForeignTable ColumnBuilder::finish() {
   convert_stamps();
   for (auto& column : columns_) find_stray(column.column);
@@ -134,8 +159,10 @@ ForeignTable ColumnBuilder::finish() {
          columns_.back().column.name.starts_with("column ")) {
     columns_.pop_back();
   }
+  auto imaginary = take_imaginary_parts();
   ForeignTable table;
   for (auto& column : columns_) table.columns.push_back(std::move(column.column));
+  std::ranges::move(imaginary, std::back_inserter(table.columns));
   table.line_of_row = std::move(line_of_row_);
   table.assumptions = std::move(assumptions_);
   return table;

@@ -26,8 +26,10 @@ class ColumnBuilder {
   /// InputError for a cell that is no number in a column of numbers, and for thousands separators.
   void add_row(std::span<const std::string_view> cells, int line);
 
-  /// The table. Time stamps become seconds since the first one, completed by a column of dates
-  /// where they have none; columns without names and without cells at the end are left out.
+  /// The table. A column of complex numbers becomes "real part of H", by the path H, and "imaginary
+  /// part of H" behind all others. Time stamps become seconds since the first one, completed by a
+  /// column of dates where they have none; columns without names and without cells at the end are
+  /// left out.
   ForeignTable finish();
 
  private:
@@ -36,6 +38,7 @@ class ColumnBuilder {
   struct Column {
     ForeignColumn column;
     Kind kind = Kind::open;
+    std::vector<double> imaginary = {};  ///< up to the last complex cell; empty: none
     std::vector<std::optional<TimeStamp>> stamps = {};
     std::string first_stamp = {};
   };
@@ -44,6 +47,7 @@ class ColumnBuilder {
   void begin_texts(Column& column) const;
   void convert_stamps();
   void find_stray(ForeignColumn& column) const;
+  std::vector<ForeignColumn> take_imaginary_parts();
   const Column* dates_for_clocks() const;
 
   std::vector<Column> columns_;

@@ -37,20 +37,16 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
-/// The name without its unit, and without the structure that it is a field of.
-std::string base_of(const ColumnLabel& label) {
-  std::string base = split_column_name(label.name).base;
-  for (auto point = base.rfind('.'); point != std::string::npos; point = base.rfind('.')) {
-    // "Beschl." is no structure.
-    if (point + 1 >= base.size() || standard(base)) return base;
-    if (!is_holder(string_view(base).substr(point + 1))) return base.substr(point + 1);
-    base.resize(point);
-  }
-  return base;
+/// The factor in the name of a column, beside its unit; x2 alone has none.
+std::optional<NameFactor> factor_of(const ColumnLabel& label) {
+  auto factor = factor_in(split_column_name(label.name).base);
+  if (factor && factor->rest.empty()) factor.reset();
+  return factor;
 }
 
 std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
-  const std::string base = base_of(label);
+  if (factor_of(label)) return {};
+  const std::string base = quantity_name(label.name);
   if (const auto quantity = standard(base)) {
     if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
     return {};
@@ -69,9 +65,20 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
 /// What is to be asked about a column whose name tells something, but not enough; nothing where
 /// it tells nothing.
 std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
-  const std::string letters = plain_letters(base_of(label));
+  const auto factor = factor_of(label);
+  const std::string base = quantity_name(factor ? factor->rest : label.name);
+  const std::string letters = plain_letters(base);
   const std::string name = arm::shown(split_column_name(label.name).base);
   const std::string column = arm::shown(label.name);
+  const auto of_factor = [&](string_view quantity) {
+    return ColumnQuestion{
+        label.name,
+        fmt::format("{0} may be {1}, but its name has {2}; state its numbers with --column "
+                    "'{1}={3}:UNIT:SCALE', SCALE 1/100 where they are 100 times {1}",
+                    column, quantity, arm::shown(factor->factor), name),
+        quantity == "torque"};
+  };
+  if (const auto quantity = standard(base); factor && quantity) return of_factor(*quantity);
   for (const auto& open : open_words()) {
     const bool is_of_unit =
         label.unit.empty() || std::ranges::count(open.units, string_view(label.unit)) > 0;
@@ -82,7 +89,9 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
                           open.may_be_torque};
   }
   for (const auto& [quantity, words, needs_unit] : quantity_words()) {
-    if (std::ranges::count(words, letters) == 0 || is_unit_of(quantity, label.unit)) continue;
+    if (std::ranges::count(words, letters) == 0) continue;
+    if (factor) return of_factor(quantity);
+    if (is_unit_of(quantity, label.unit)) continue;
     return ColumnQuestion{
         label.name,
         fmt::format("{} may be {}, but {} is no unit of it; state it with --column "
@@ -98,7 +107,7 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
                                      const std::string& quantity) {
   std::vector<ColumnCandidate> found;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].is_text || columns[i].unit.empty()) continue;
+    if (columns[i].is_text || columns[i].unit.empty() || factor_of(columns[i])) continue;
     if (is_unit_of(quantity, columns[i].unit)) {
       found.push_back({quantity, i, false});
     }
@@ -108,11 +117,22 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 
 }  // namespace
 
+std::string quantity_name(string_view name) {
+  std::string base = split_column_name(name).base;
+  for (auto point = base.rfind('.'); point != std::string::npos; point = base.rfind('.')) {
+    // "Beschl." is no structure.
+    if (point + 1 >= base.size() || standard(base)) return base;
+    if (!is_holder(string_view(base).substr(point + 1))) return base.substr(point + 1);
+    base.resize(point);
+  }
+  return base;
+}
+
 std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
   std::vector<ColumnLabel> labels;
   for (const auto& column : table.columns) {
-    labels.push_back({column.name, column.unit, column.is_text() || column.holds_nothing(),
-                      column.is_stamp, column.path});
+    const bool is_no_quantity = column.is_text() || column.holds_nothing() || column.is_left_out;
+    labels.push_back({column.name, column.unit, is_no_quantity, column.is_stamp, column.path});
   }
   return labels;
 }

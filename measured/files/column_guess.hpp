@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace flexarm::measured {
@@ -18,7 +19,11 @@ struct ColumnLabel {
   std::string path = {};  ///< where it stands in a file of structures; empty: by name
 };
 
-/// The labels of the columns of a table; one without a number is as one of text.
+/// The name of a column without its unit and the structure that it is a field of: "torque" of
+/// "log.torque.values [N m]".
+std::string quantity_name(std::string_view name);
+
+/// The labels of the columns of a table; one without a number, or left out, is as one of text.
 std::vector<ColumnLabel> labels_of(const ForeignTable& table);
 
 /// A column whose name tells what was measured, but not as which quantity it is to be read.

@@ -84,7 +84,7 @@ std::vector<double> si_values(const ForeignTable& table, const std::vector<doubl
   values.reserve(numbers.size());
   for (row = 0; row < numbers.size(); ++row) {
     values.push_back(unit.to_si(numbers[row] * mapping.scale));
-    if (std::isfinite(values.back()) && !is_over_range(numbers[row])) continue;
+    if (std::isfinite(values.back()) && is_reading(numbers[row])) continue;
     throw InputError(fmt::format(
         "{}: {} = {}{}: must be a finite number{}", source.name, what, numbers[row],
         table.line_of_row.empty() ? fmt::format(" in row {}", row + 1) : " (or an empty cell)",
@@ -179,8 +179,15 @@ ColumnMappings mapping_by_header(const ForeignColumn& column, const ColumnMappin
 
 bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale) {
   constexpr double kAlike = 0.01;
+  constexpr double kTwoDigits = 0.05;  // 1.05 as 1.1
   const double own = conversion_of(standard_name, unit).value_or(1.0);
-  return own != 1.0 && std::abs(std::abs(scale) / own - 1.0) < kAlike;
+  const double off = std::abs(std::abs(scale) / own - 1.0);
+  if (own == 1.0 || off > kTwoDigits) return false;
+  if (off < kAlike) return true;
+  throw InputError(fmt::format(
+      "scale = {0:.6g}: {1:.2g} % off the conversion of {2}, {3:.6g}; write unit {4}, with scale "
+      "{0:.9g} if it is the whole conversion, {5:.9g} if it is in {2}",
+      scale, 100.0 * off, unit, own, si_unit_of(standard_name), scale * own));
 }
 
 bool is_unit_of(std::string_view standard_name, std::string_view unit) {

@@ -1,6 +1,7 @@
 #include "measured/files/complete_rows.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/missing_signs.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/time_grid.hpp"
 
@@ -10,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <iterator>
 #include <utility>
 
 namespace flexarm::measured {
@@ -57,9 +58,16 @@ class RowKeeper {
       : table_(table), own_rates_(own_rates), used_(used_columns(table, mappings, reference)) {}
 
   CompleteRows keep() {
-    for (const auto& column : used_) take_out_over_range(column);
+    for (const auto& used : used_) {
+      const std::string note = take_out_over_range(table_.columns[used.place], used.quantity);
+      if (!note.empty()) kept_.notes.push_back(note);
+    }
     for (const auto& column : used_) require_numbers(column);
-    for (const auto& column : used_) doubt_signs(column);
+    for (const auto& used : used_) {
+      const ForeignColumn& column = table_.columns[used.place];
+      std::ranges::move(doubtful_signs(column.values, column.name, used.quantity),
+                        std::back_inserter(kept_.warnings));
+    }
     require_known_rates();
     if (used_.empty() || !are_of_one_length()) return {};
     kept_.rows_in_file = values_of(used_.front()).size();
@@ -74,51 +82,6 @@ class RowKeeper {
  private:
   std::vector<double>& values_of(const UsedColumn& column) {
     return table_.columns[column.place].values;
-  }
-
-  void take_out_over_range(const UsedColumn& used) {
-    std::size_t count = 0;
-    double first = 0.0;
-    for (double& value : values_of(used)) {
-      if (!is_over_range(value)) continue;
-      if (count++ == 0) first = value;
-      value = kUnknown;
-    }
-    if (count == 0) return;
-    kept_.notes.push_back(
-        fmt::format("{}: {} cell{} of column {} with {:g}, an instrument's sign of no "
-                    "measurement; taken as empty",
-                    used.quantity, count, count == 1 ? "" : "s",
-                    arm::shown(table_.columns[used.place].name), first));
-  }
-
-  /// Warns of each usual sign of a missing sample that lies far outside the other numbers.
-  void doubt_signs(const UsedColumn& used) {
-    constexpr double kSigns[] = {-999.0,  999.0,         -9999.0,      9999.0,       -99999.0,
-                                 99999.0, -999999.0,     999999.0,     -32768.0,     32767.0,
-                                 65535.0, -2147483648.0, 2147483647.0, 4294967295.0, -1e20,
-                                 1e20,    -1e30,         1e30};
-    const auto& values = values_of(used);
-    for (const double sign : kSigns) {
-      const auto count = std::ranges::count(values, sign);
-      if (count == 0) continue;
-      double lowest = std::numeric_limits<double>::infinity();
-      double highest = -lowest;
-      for (const double value : values) {
-        if (std::isnan(value) || value == sign) continue;
-        lowest = std::min(lowest, value);
-        highest = std::max(highest, value);
-      }
-      if (lowest > highest) continue;
-      const double distance = std::max(lowest - sign, sign - highest);
-      if (!(distance > highest - lowest)) continue;
-      kept_.warnings.push_back(fmt::format(
-          "{}: {} cell{} of column {} {} {:.10g}, the others lie from {:.6g} to {:.6g}; "
-          "if {:.10g} stands for a missing sample, empty {}",
-          used.quantity, count, count == 1 ? "" : "s", arm::shown(table_.columns[used.place].name),
-          count == 1 ? "is" : "are", sign, lowest, highest, sign,
-          count == 1 ? "this cell" : "these cells"));
-    }
   }
 
   void require_numbers(const UsedColumn& used) {

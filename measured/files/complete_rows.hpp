@@ -38,9 +38,7 @@ struct CompleteRows {
 /// Leaves out the rows of `table` that have no number in a column that `mappings`, the reference of
 /// a closed loop (null without) or a standard header takes, as if they were not in the file.
 ///
-/// Numbers that instruments write for what they could not measure (`is_over_range`) are missing
-/// ones. A usual sign of a missing sample, -9999 or -32768, that lies farther from the other
-/// numbers of its column than these from each other stays, with a warning.
+/// Signs of instruments (`take_out_over_range`) are missing numbers; of `doubtful_signs` is warned.
 ///
 /// A column is written at its own rate if the median distance of its numbers is two rows or more,
 /// of those rows that have a number in any such column but the time. Throws InputError for one that

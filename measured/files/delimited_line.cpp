@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 namespace flexarm::measured {
 
@@ -142,6 +143,33 @@ std::optional<double> parse_cell(string_view cell, char decimal) {
   if (cell.size() > digits.size() || cell.find('.') != string_view::npos) return std::nullopt;
   std::ranges::replace_copy(cell, digits.begin(), ',', '.');
   return number_cell<double>({digits.data(), cell.size()});
+}
+
+std::optional<std::complex<double>> parse_complex_cell(string_view cell, char decimal,
+                                                       bool has_both) {
+  constexpr std::size_t kLongest = 96;
+  const bool may_be = cell.size() <= kLongest && cell.find_first_of("ij") != string_view::npos &&
+                      cell.find_first_of("0123456789") != string_view::npos;
+  if (!may_be) return std::nullopt;
+  std::string text;
+  std::ranges::copy_if(cell, std::back_inserter(text),
+                       [](char c) { return !is_blank(c) && c != '*' && c != '(' && c != ')'; });
+  if (const auto signs = text.find("+-"); signs != std::string::npos) text.erase(signs, 1);
+  const auto unit = text.find_last_of("ij");
+  text.erase(unit, 1);
+  const auto is_sign = [&](std::size_t at) { return text[at] == '+' || text[at] == '-'; };
+  std::size_t split = text.empty() ? 0 : text.size() - 1;  // of the real part, no exponent's sign
+  while (split > 0 && (!is_sign(split) || text[split - 1] == 'e' || text[split - 1] == 'E')) {
+    --split;
+  }
+  if (split == 0 && has_both) return std::nullopt;
+  if (unit != text.size() && (split == 0 || unit != split + 1)) return std::nullopt;
+  std::string imaginary = text.substr(split);
+  if (imaginary == "+" || imaginary == "-") imaginary += '1';
+  const auto re = split == 0 ? std::optional(0.0) : parse_cell(text.substr(0, split), decimal);
+  const auto im = parse_cell(imaginary, decimal);
+  if (!re || !im) return std::nullopt;
+  return std::complex(*re, *im);
 }
 
 bool is_missing_number(string_view cell) {

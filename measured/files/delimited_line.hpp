@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <deque>
 #include <optional>
 #include <span>
@@ -51,6 +52,11 @@ std::string_view trimmed(std::string_view text);
 
 /// A cell as a number with the dialect's decimal mark, `nan` and `inf` included.
 std::optional<double> parse_cell(std::string_view cell, char decimal);
+
+/// A cell as a complex number: 1+2j, (1-2i), 1.5e-3 + 2e-4*i, 1+j2, and 2j unless it `has_both`
+/// parts; nothing for a real one.
+std::optional<std::complex<double>> parse_complex_cell(std::string_view cell, char decimal,
+                                                       bool has_both = false);
 
 /// Whether the cell is empty or has what programs write in place of a number that there is not: NA,
 /// null, -, ...

@@ -5,6 +5,7 @@
 #include "measured/files/file_kind.hpp"
 #include "measured/files/foreign_mat.hpp"
 #include "measured/files/json_table.hpp"
+#include "measured/files/long_table.hpp"
 #include "measured/files/mat_file.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/response_columns.hpp"
@@ -106,8 +107,7 @@ double hertz_of(const UniversalAxis& axis, const std::string& name, ForeignFile&
   }
   const double hertz = hertz_in_one(unit);
   if (hertz > 0.0) return hertz;
-  throw InputError(fmt::format("{}: frequencies in {}; must be in Hz, kHz, rad/s or rpm",
-                               arm::shown(name), arm::shown(unit)));
+  throw no_unit_of_frequencies(arm::shown(name), unit);
 }
 
 /// Says where the node's direction is against the axis, and where only data set 164 has units.
@@ -280,6 +280,11 @@ ForeignFile foreign_contents(const std::string& bytes, const std::string& name,
     file = universal_contents(bytes, name);
   } else {
     file.table = parse_foreign_table(bytes, name);
+  }
+  try {
+    file.table = without_long_form(std::move(file.table));
+  } catch (const InputError& error) {
+    throw arm::located(error, name, 0);
   }
   add_column_responses(file);
   if (file.table.columns.empty() && file.responses.empty() && file.modes.empty()) {

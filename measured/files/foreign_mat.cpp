@@ -145,18 +145,16 @@ std::optional<Frequencies> frequencies_in(const std::vector<MatVariable>& variab
       return Frequencies{variable.name, unit, !told.empty() || !of_name->empty(), matrix->values};
     }
     if (names.told_frequency_unit(variable.name).empty()) continue;  // a force in N
-    throw InputError(fmt::format("{}: frequencies in {}; must be in Hz, kHz, rad/s or rpm",
-                                 arm::shown(variable.name), arm::shown(told)));
+    throw no_unit_of_frequencies(arm::shown(variable.name), told);
   }
   return std::nullopt;
 }
 
 /// The unit rad/s beside a response and a frequency of a structure may be of either.
 void require_clear_unit(const Frequencies& frequencies, const MatSignalName& signal) {
-  const auto owner = [](std::string_view path) { return path.substr(0, path.rfind('.') + 1); };
   const bool is_of_name = !split_column_name(mat_field(signal.path)).unit.empty();
   if (frequencies.is_unit_told || is_of_name || signal.unit != "rad/s" ||
-      owner(signal.path).empty() || owner(signal.path) != owner(frequencies.path)) {
+      owner_of(signal.path).empty() || owner_of(signal.path) != owner_of(frequencies.path)) {
     return;
   }
   throw InputError(fmt::format(

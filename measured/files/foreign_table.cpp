@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_builder.hpp"
+#include "measured/files/column_guess.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
@@ -365,7 +366,7 @@ bool is_time_column(const ForeignColumn& column) {
   const auto words = quantity_words();
   const auto time = std::ranges::find(words, string_view("time"), &QuantityWords::quantity);
   const bool is_named =
-      std::ranges::count(time->words, plain_letters(split_column_name(column.name).base)) > 0;
+      std::ranges::count(time->words, plain_letters(quantity_name(column.name))) > 0;
   const auto units = units_for("s");
   return is_named || column.is_stamp ||
          std::ranges::count(units, string_view(column.unit), &Unit::name) > 0 ||

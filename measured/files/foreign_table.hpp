@@ -16,7 +16,7 @@ struct ForeignColumn {
   std::vector<std::string> texts = {};  ///< in place of the values in a column of text
   bool is_stamp = false;                ///< seconds of time stamps, clocks or dates in the file
   bool is_made = false;                 ///< times of a start and a period that the file tells
-  bool is_left_out = false;             ///< by the user: not taken by its header
+  bool is_left_out = false;             ///< by the user: no quantity by its name
   std::string path = {};                ///< where it stands in a file of structures; empty: by name
   std::string stray = {};     ///< the only text of a column that has numbers besides; empty: none
   std::size_t stray_row = 0;  ///< where it stands first

@@ -67,6 +67,12 @@ FrequencyHeader read_frequency_header(std::span<const std::string_view> cells) {
 
 double read_number(Place place, std::string_view cell, const arm::Range& range) {
   const auto value = number_cell<double>(cell);
+  if (value && is_over_range(*value)) {
+    throw InputError(fmt::format(
+        "{} = {}: an instrument's sign of no measurement; must be a measured number, or the row "
+        "left out",
+        kNames[place], arm::shown(cell)));
+  }
   if (value && range.contains(*value)) return *value;
   throw InputError(
       fmt::format("{} = {}: must be {}", kNames[place], arm::shown(cell), to_string(range)));

@@ -1,7 +1,10 @@
 #include "measured/files/instrument_head.hpp"
 
+#include "arm/input_error.hpp"
+#include "measured/files/column_mapping.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
+#include "measured/files/record_constants.hpp"
 #include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
@@ -96,6 +99,68 @@ std::optional<CountedHeader> header_of_one_line(const Cells& names, std::size_t 
   return header;
 }
 
+bool begins_with_letter(const Cells& cells) {
+  return !cells.empty() && !plain_letters(cells.front().substr(0, 1)).empty();
+}
+
+/// A line of keys for each of the names, units and times of the signals.
+std::optional<CountedHeader> header_of_keys(std::span<const TextLine> lines, LineSplitter& splitter,
+                                            char decimal) {
+  CountedHeader header;
+  Cells names;
+  Cells units;
+  std::string time_unit = "s";
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostHeadLines); ++i) {
+    const Cells cells = cells_of(lines[i].text, splitter);
+    if (!begins_with_letter(cells)) {
+      if (!names.empty() && !is_blank_line(lines[i].text)) break;
+      continue;
+    }
+    const std::string key = plain_letters(cells.front());
+    const Cells values(cells.begin() + 1, cells.end());
+    header.behind = i + 1;
+    if (key == "tracename" && !values.empty()) {
+      names = values;
+      header.head = i;
+    }
+    if (key == "vunit") units = values;
+    if (key == "hunit" && !values.empty()) time_unit = canonical_unit(values.front());
+    for (const auto& value : values) {
+      if (key != "hresolution" || value.empty() || value == values.front()) continue;
+      throw arm::InputError(
+          fmt::format("HResolution {} and {}: signals of unlike sampling periods; save each in a "
+                      "file of its own and join them with --join",
+                      arm::shown(values.front()), arm::shown(value)));
+    }
+  }
+  while (!names.empty() && names.back().empty()) names.pop_back();
+  if (names.empty() || header.behind >= lines.size()) return std::nullopt;
+  const auto first = std::ranges::find_if(
+      lines.subspan(header.behind), [](const TextLine& line) { return !is_blank_line(line.text); });
+  if (first == lines.end()) return std::nullopt;
+  // Rows begin with an empty cell below the keys, with a time, or with the first signal.
+  const Cells row = cells_of(first->text, splitter);
+  const bool has_empty = row.front().empty();
+  const auto filled = row.size() - static_cast<std::size_t>(std::ranges::count(row, std::string()));
+  if (has_empty) header.columns.emplace_back();
+  if (!has_empty && filled == names.size() + 1) header.columns.push_back(named("time", time_unit));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    header.columns.push_back(named(names[i], i < units.size() ? units[i] : ""));
+  }
+  const string_view line_of_names = lines[header.head].text;
+  const auto mark = line_of_names.find_first_of(",;\t");
+  header.settings = sampling_settings(
+      lines.first(header.behind), mark == string_view::npos ? ' ' : line_of_names[mark], decimal);
+  const auto seconds = conversion_of(kTime, time_unit);
+  if (!seconds) {
+    header.settings.period_s.reset();  // of a spectrum
+  } else if (header.settings.period_s) {
+    *header.settings.period_s *= *seconds;
+    header.settings.start_s *= *seconds;
+  }
+  return header;
+}
+
 /// Source and units of the signals, as the keys of a block of settings state them.
 struct Settings {
   std::string source;
@@ -122,6 +187,7 @@ bool begins_settings(string_view cell) {
 
 std::optional<CountedHeader> counted_header(std::span<const TextLine> lines, LineSplitter& splitter,
                                             char decimal) {
+  if (auto header = header_of_keys(lines, splitter, decimal)) return header;
   const std::size_t last = std::min(lines.size(), kMostHeadLines);
   for (std::size_t i = 0; i < last; ++i) {
     const string_view line = without_comment_mark(lines[i].text);

@@ -18,6 +18,13 @@ namespace flexarm::measured {
 ///
 ///     X,CH1,CH2,Start,Increment            CH1V,CH2V,t0 = -0.1,tInc = 2e-3
 ///     Sequence,Volt,Volt,0,2e-3
+///
+/// So are the keys of recorders (Yokogawa), a line each with a cell for each signal, in any order:
+///
+///     "TraceName","CH1","CH2"
+///     "VUnit","V","V"
+///     "HResolution",2e-3,2e-3
+///     "HOffset",0,0
 struct CountedHeader {
   std::vector<ForeignColumn> columns;  ///< names and units
   SamplingSettings settings;
@@ -25,7 +32,7 @@ struct CountedHeader {
   std::size_t behind = 0;  ///< place of the first line of samples
 };
 
-/// The header among `lines`; empty without one.
+/// The header among `lines`; empty without one. Throws InputError for signals of unlike periods.
 std::optional<CountedHeader> counted_header(std::span<const TextLine> lines, LineSplitter& splitter,
                                             char decimal);
 

@@ -3,6 +3,8 @@
 #include "arm/input_error.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
+#include "measured/files/missing_signs.hpp"
+#include "measured/files/record_constants.hpp"
 #include "measured/files/resampling.hpp"
 #include "measured/files/sample_clock.hpp"
 #include "measured/files/time_record.hpp"
@@ -136,13 +138,49 @@ class Joiner {
     for (auto& column : file.columns) {
       if (are_same) {
         column.values = cut(column.values, parts_[i]);
-      } else if (is_held(column.name)) {
-        column.values = held_means(file.times_s, column.values, grid_s, periods_s_[base]);
       } else {
-        column.values = cubic_values(file.times_s, column.values, grid_s, periods_s_[i]);
+        std::ranges::for_each(doubtful_signs(column.values, column.name, file.file),
+                              [&](const std::string& doubt) { assume(doubt); });
+        column.values = resampled(file.times_s, column.values, grid_s,
+                                  is_held(column.name) ? periods_s_[base] : 0.0);
       }
       table_.columns.push_back(std::move(column));
     }
+  }
+
+  /// Returns the values at other times by the samples that have a number; `step_s` is the step that
+  /// a mean of held values is over, 0 for a cubic. Where samples are missing, so are these values.
+  static std::vector<double> resampled(const std::vector<double>& times_s,
+                                       const std::vector<double>& values,
+                                       const std::vector<double>& grid_s, double step_s) {
+    std::vector<double> own_s;
+    std::vector<double> own;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (std::isnan(values[k])) continue;
+      own_s.push_back(times_s[k]);
+      own.push_back(values[k]);
+    }
+    if (own.size() < 2) return std::vector<double>(grid_s.size(), kUnknown);
+    const double period_s = clock_steps(own_s).period_s;
+    std::vector<double> made = step_s > 0.0 ? held_means(own_s, own, grid_s, step_s)
+                                            : cubic_values(own_s, own, grid_s, period_s);
+    const double tolerance_s = kMostJitter_periods * period_s;
+    const double held_s = step_s > 0.0 ? period_s : 0.0;
+    constexpr double kGap_periods = 1.5;
+    for (std::size_t i = 0, k = 0; i < grid_s.size(); ++i) {
+      if (grid_s[i] < own_s.front() - tolerance_s || grid_s[i] > own_s.back() + tolerance_s) {
+        made[i] = kUnknown;
+      }
+      while (k + 2 < own_s.size() && own_s[k + 1] <= grid_s[i] + tolerance_s) ++k;
+      // The step that begins here may reach into several gaps.
+      for (std::size_t j = k; j + 1 < own_s.size() && own_s[j] <= grid_s[i] + step_s; ++j) {
+        const bool is_gap = own_s[j + 1] - own_s[j] > kGap_periods * period_s;
+        const bool is_within = grid_s[i] + step_s > own_s[j] + held_s + tolerance_s &&
+                               grid_s[i] < own_s[j + 1] - tolerance_s;
+        if (is_gap && is_within) made[i] = kUnknown;
+      }
+    }
+    return made;
   }
 
   [[noreturn]] void refuse_other_times(std::size_t i) const {

@@ -25,7 +25,7 @@ std::string_view to_string(JoinGrid grid);
 struct TimedSignals {
   std::string file;             ///< as it may stand in a line
   std::vector<double> times_s;  ///< strictly increasing, two or more, one clock for all files
-  std::vector<ForeignColumn> columns;  ///< of numbers, as long
+  std::vector<ForeignColumn> columns;  ///< of numbers, as long; NaN where one is missing
 };
 
 /// One table of the signals of several files: "time [s]", then their columns, over the time in
@@ -34,7 +34,8 @@ struct TimedSignals {
 ///
 /// Samples that lie within 0.05 periods of each other are at the same time. With another grid than
 /// `same`, the signals of the other files are taken at its times: of one that `is_held` by its mean
-/// over each step, of any other by the cubic through the four nearest samples.
+/// over each step, of any other by the cubic through the four nearest samples. NaN is no sample.
+/// Where samples are missing, a step of more than 1.5 periods of the signal, the table has NaN.
 ///
 /// Throws InputError for files without common time, and with `same` for other times.
 ForeignTable joined_table(std::vector<TimedSignals> files, JoinGrid grid,

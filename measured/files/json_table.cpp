@@ -4,6 +4,8 @@
 #include "arm/number.hpp"
 #include "measured/files/column_builder.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/json_signals.hpp"
+#include "measured/files/json_times.hpp"
 #include "measured/files/json_units.hpp"
 #include "measured/files/record_constants.hpp"
 
@@ -115,6 +117,7 @@ class JsonTableBuilder {
     read_texts();
     take_unit_columns();
     set_units(columns, units_, singles_);
+    add_json_times(out_.table, numbers_, units_, out_.left_out);
   }
 
  private:
@@ -248,6 +251,9 @@ class JsonTableBuilder {
         units_.push_back({path, *list, value.get<std::string>(), false, singles_.back()});
       } else {
         out_.left_out.push_back(fmt::format("{}: a single value", singles_.back()));
+        if (value.is_number()) {
+          numbers_.push_back({key, value.get<double>(), out_.left_out.back()});
+        }
       }
     }
   }
@@ -312,7 +318,9 @@ class JsonTableBuilder {
       for (std::size_t row = 0; row < rows; ++row) add_text_row(builder, places, row);
       ForeignTable read = builder.finish();
       for (std::size_t i = 0; i < read.columns.size(); ++i) {
-        columns[places[i]] = std::move(read.columns[i]);
+        // Imaginary parts stand behind the others.
+        auto& column = i < places.size() ? columns[places[i]] : columns.emplace_back();
+        column = std::move(read.columns[i]);
       }
       std::ranges::move(read.assumptions, std::back_inserter(out_.table.assumptions));
     }
@@ -355,6 +363,7 @@ class JsonTableBuilder {
   std::map<std::string, std::size_t> places_;
   std::vector<JsonUnit> units_;
   std::vector<std::string> singles_;  ///< names of single values
+  std::vector<JsonNumber> numbers_;   ///< single ones
 };
 
 /// The list of the objects that stand one a line; discarded for any other text.
@@ -409,7 +418,7 @@ JsonTable parse_json_table(string_view text, const std::string& file_name) {
       }
     }
     JsonTableBuilder builder(table);
-    builder.add(json, "", 0);
+    builder.add(with_lists_of_signals(std::move(json)), "", 0);
     builder.finish();
     if (table.table.columns.empty()) {
       throw InputError(

@@ -23,8 +23,10 @@ bool is_json(std::string_view bytes);
 /// - an object of lists, `{"time": [0, ...], "torque": [0.1, ...]}`;
 /// - what pandas writes: `columns` and `data`, `{"time": {"0": 0, ...}, ...}`,
 ///   `{"0": {"time": 0, ...}, ...}`;
-/// - a list of lists, of which the first may hold the names.
+/// - a list of lists, of which the first may hold the names;
+/// - a list of named signals (measured/files/json_signals.hpp).
 ///
+/// Without times, a period and a start among the single values make them: `dt`, `fs`, `t0`.
 /// What is in objects within objects is named "run.time". null, NaN and what a sample does not have
 /// are empty cells. Throws InputError `FILE: what is wrong` for a text that is no JSON, and for one
 /// without a list of numbers.

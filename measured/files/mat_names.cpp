@@ -5,8 +5,10 @@
 #include "measured/files/column_name.hpp"
 #include "measured/files/delimited_line.hpp"
 #include "measured/files/mat_levels.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -38,10 +40,11 @@ std::string lower(string_view text) {
   return letters;
 }
 
-/// What holds the field: "a.b(2)" of "a.b(2).c"; empty for a variable.
-string_view owner_of(string_view path) {
-  const auto point = path.rfind('.');
-  return point == string_view::npos ? string_view() : path.substr(0, point);
+/// "units", "channelUnits", "Einheiten".
+bool names_units(string_view path) {
+  const std::string field = mat_field(path);
+  return field.ends_with("unit") || field.ends_with("units") || field.ends_with("einheiten") ||
+         field.ends_with("unites");
 }
 
 bool is_time_field(string_view path) {
@@ -112,6 +115,11 @@ std::vector<std::string> split_labels(const std::string& text, std::size_t count
 
 }  // namespace
 
+string_view owner_of(string_view path) {
+  const auto point = path.rfind('.');
+  return point == string_view::npos ? string_view() : path.substr(0, point);
+}
+
 std::string mat_field(string_view path) {
   string_view field = path.substr(path.rfind('.') + 1);
   return lower(field.substr(0, field.find_first_of("({")));
@@ -148,7 +156,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
     const auto* text = list != nullptr && list->size() == 1
                            ? &list->front()
                            : std::get_if<std::string>(&variable.value);
-    if (list != nullptr) lists_[owner].push_back(list);
+    if (list != nullptr) (names_units(path) ? unit_lists_ : lists_)[owner].push_back(list);
     if (text != nullptr) {
       texts_[owner.empty() ? std::string(path) : owner + "." + mat_field(path)] = *text;
       if (split_cell(path)) texts_[std::string(path)] = *text;
@@ -166,6 +174,16 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
         ++signals_in_[std::string(at)];
       }
     }
+  }
+  for (const auto& [owner, units] : unit_lists_) {
+    const auto names = lists_.find(owner);
+    const bool is_one_each = names != lists_.end() && names->second.size() == 1;
+    if (!is_one_each || units.size() > 1 || units[0]->size() < 2) continue;
+    if (names->second[0]->size() == units[0]->size()) continue;
+    throw arm::InputError(
+        fmt::format("a list of {} units beside one of {} names, {}; must be one for each",
+                    units[0]->size(), names->second[0]->size(),
+                    arm::shown(fmt::format("{}", fmt::join(*names->second[0], ", ")))));
   }
 }
 
@@ -230,9 +248,9 @@ std::string MatNames::told_unit(string_view path) const {
   return "";
 }
 
-const MatStrings* MatNames::list_beside(string_view path, std::size_t count) const {
-  const auto beside = lists_.find(owner_of(path));
-  if (beside == lists_.end()) return nullptr;
+const MatStrings* MatNames::list_beside(const Lists& lists, string_view path, std::size_t count) {
+  const auto beside = lists.find(owner_of(path));
+  if (beside == lists.end()) return nullptr;
   const MatStrings* found = nullptr;
   for (const auto* list : beside->second) {
     if (list->size() != count || count < 2) continue;
@@ -242,23 +260,24 @@ const MatStrings* MatNames::list_beside(string_view path, std::size_t count) con
   return found;
 }
 
-std::string MatNames::label_of_cell(const std::string& path) const {
+/// The text of a cell in its row or column, at `line`, or in the list beside an array of cells.
+std::string MatNames::text_of_cell(const std::string& path, const Lists& lists, int line) const {
   const auto cell = split_cell(path);
   if (!cell) return "";
   const auto [array, index] = *cell;
   if (const auto comma = index.find(','); comma != string_view::npos) {
-    // The first of the row, or of the column.
-    for (const auto& place : {fmt::format("{}{{1,{}}}", array, index.substr(comma + 1)),
-                              fmt::format("{}{{{},1}}", array, index.substr(0, comma))}) {
+    for (const auto& place : {fmt::format("{}{{{},{}}}", array, line, index.substr(comma + 1)),
+                              fmt::format("{}{{{},{}}}", array, index.substr(0, comma), line)}) {
       const auto text = texts_.find(place);
-      if (text != texts_.end()) return text->second;
+      if (text == texts_.end()) continue;
+      if (&lists == &lists_ || is_canonical_unit(canonical_unit(text->second))) return text->second;
     }
     return "";
   }
   const auto cells = cells_in_.find(array);
   const auto number = arm::parse_number<std::size_t>(index);
   if (cells == cells_in_.end() || !number || *number == 0) return "";
-  const auto* list = list_beside(array, cells->second);
+  const auto* list = list_beside(lists, array, cells->second);
   return list != nullptr && *number <= list->size() ? (*list)[*number - 1] : "";
 }
 
@@ -278,21 +297,30 @@ std::vector<MatSignalName> MatNames::of(const std::string& path,
   std::vector<std::string> labels;
   if (is_time_beside_signals(path)) {
     labels = {"time"};
-  } else if (const auto* list = list_beside(path, count)) {
+  } else if (const auto* list = list_beside(lists_, path, count)) {
     for (const auto& text : *list) labels.push_back(label_text(text));
   } else if (!is_time_field(path)) {
-    const std::string cell = label_of_cell(path);
+    const std::string cell = text_of_cell(path, lists_, 1);
     const std::string told = cell.empty() ? told_label(path) : cell;
     labels = count == 1 ? std::vector{label_text(told)} : split_labels(told, count);
   }
   labels.resize(count);
+  const auto* units = list_beside(unit_lists_, path, count);
   std::vector<MatSignalName> names;
   for (std::size_t i = 0; i < count; ++i) {
     MatSignalName name{labels[i], path + suffixes[i], told_unit(path)};
     if (name.name.empty()) name.name = name.path;
-    if (name.unit.empty()) {
-      name.unit = split_column_name(labels[i].empty() ? mat_field(path) : labels[i]).unit;
+    const std::string of_name =
+        split_column_name(labels[i].empty() ? mat_field(path) : labels[i]).unit;
+    const std::string listed =
+        canonical_unit(units != nullptr ? (*units)[i] : text_of_cell(path, unit_lists_, 2));
+    if (!listed.empty() && !of_name.empty() && listed != of_name) {
+      throw arm::InputError(
+          fmt::format("{}: in {} by its name, in {} by the list of units; must "
+                      "be the same",
+                      arm::shown(name.name), arm::shown(of_name), arm::shown(listed)));
     }
+    if (name.unit.empty()) name.unit = listed.empty() ? of_name : listed;
     names.push_back(std::move(name));
   }
   return names;

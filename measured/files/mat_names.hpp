@@ -21,16 +21,18 @@ struct MatSignalName {
 
 /// Names that structures tell of the signals in them, as Simulink and dSPACE write them: a text
 /// `label`, `Name`, `SignalName` or `title` beside the values or around them, with a `Unit`; a list
-/// of as many texts as a matrix has signals, or a cell array cells; a cell of text above one of
-/// values. `X.Data` beside `Y.Data` is a time. A `FrequencyUnit` is that of the frequencies beside
-/// it, as is a `Unit` of Hz or kHz.
+/// of as many texts as a matrix has signals, or a cell array cells, with one called `units`; a cell
+/// of text above one of values. `X.Data` beside `Y.Data` is a time. A `FrequencyUnit` is that of
+/// the frequencies beside it, as is a `Unit` of Hz or kHz.
 class MatNames {
  public:
-  /// Throws InputError for a unit of a signal that is there and is no text of one row.
+  /// Throws InputError for a unit of a signal that is there and is no text of one row, and for a
+  /// list of units that is not as long as that of the names.
   explicit MatNames(const std::vector<MatVariable>& variables,
                     const std::vector<std::string>& left_out);
 
   /// The signals of the variable `path`, `count` columns or rows that stand at `path` + suffix.
+  /// Throws InputError for a unit in a name that differs from that in the list.
   std::vector<MatSignalName> of(const std::string& path,
                                 const std::vector<std::string>& suffixes) const;
 
@@ -38,19 +40,27 @@ class MatNames {
   std::string told_frequency_unit(std::string_view path) const;
 
  private:
+  /// Lists of texts, by what holds them.
+  using Lists = std::map<std::string, std::vector<const MatStrings*>, std::less<>>;
+
   std::string told_label(std::string_view path) const;
   std::string told_unit(std::string_view path) const;
-  const MatStrings* list_beside(std::string_view path, std::size_t count) const;
-  std::string label_of_cell(const std::string& path) const;
+  static const MatStrings* list_beside(const Lists& lists, std::string_view path,
+                                       std::size_t count);
+  std::string text_of_cell(const std::string& path, const Lists& lists, int line) const;
   bool is_time_beside_signals(std::string_view path) const;
 
   std::map<std::string, std::string, std::less<>> texts_;  ///< by path, the field in lower case
-  std::map<std::string, std::vector<const MatStrings*>, std::less<>> lists_;  ///< by owner
+  Lists lists_;                                            ///< of names
+  Lists unit_lists_;                                       ///< called so
   std::map<std::string, std::size_t, std::less<>> signals_in_;  ///< by owner, without times
   std::map<std::string, std::size_t, std::less<>> cells_in_;    ///< cells of values, by cell array
   std::set<std::string, std::less<>> times_in_;                 ///< owners of times
   std::set<std::string, std::less<>> frequencies_in_;           ///< owners of vectors called so
 };
+
+/// What holds a field: "a.b(2)" of "a.b(2).c"; empty for a variable.
+std::string_view owner_of(std::string_view path);
 
 /// The field behind the last point of a path, in lower case and without an index.
 std::string mat_field(std::string_view path);

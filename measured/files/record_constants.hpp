@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string_view>
@@ -10,10 +11,15 @@ namespace flexarm::measured {
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether this stands for what an instrument could not measure: 9.9E37, 9.91E37
-/// (SCPI), 9.99999E37.
+/// (SCPI), 9.99999E37, in single precision too.
 inline constexpr bool is_over_range(double value) {
   const double size = value < 0.0 ? -value : value;
-  return size >= 9.9e37 && size <= 1e38;
+  return size >= 9.89999e37 && size <= 1.00001e38;
+}
+
+/// Whether it is a finite number that was measured.
+inline bool is_reading(double value) {
+  return std::isfinite(value) && !is_over_range(value);
 }
 
 /// Standard names beside those of sensors.

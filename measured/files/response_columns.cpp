@@ -114,10 +114,20 @@ class ResponseMaker {
  public:
   ResponseMaker(const ForeignTable& table, const PartColumn& frequency)
       : table_(table), frequency_(frequency) {
+    require_part(frequency);
     hertz_ = hertz_in_one(frequency.unit.empty() ? "Hz" : frequency.unit);
-    if (hertz_ == 0.0) {
-      throw InputError(fmt::format("frequency {} in {}: must be in Hz, kHz, rad/s or rpm",
-                                   shown(frequency), arm::shown(frequency.unit)));
+    if (hertz_ == 0.0) throw no_unit_of_frequencies(shown(frequency), frequency.unit);
+    const string_view name = table.columns[frequency.column].name;
+    if (const auto logarithm = logarithm_of_frequency(name.substr(name.rfind('.') + 1))) {
+      log_base_ = logarithm->base;
+      if (log_base_ == 0.0) {
+        throw InputError(fmt::format(
+            "frequency {0}: a logarithm to base 10 or e; call it log10({1}) or ln({1}), or write "
+            "the frequencies themselves",
+            shown(frequency), arm::shown(logarithm->of)));
+      }
+      note(fmt::format("{} holds logarithms to base {:.4g} of frequencies", shown(frequency),
+                       log_base_));
     }
     if (frequency.unit.empty() || frequency.is_unit_assumed) {
       note(fmt::format("unit of {} not given; {} assumed", shown(frequency),
@@ -152,7 +162,8 @@ class ResponseMaker {
       const double a = value(*first, line);
       const double b = value(*second, line);
       constexpr double kDecibels = 20.0;
-      made.frequency_Hz.push_back(value(frequency_, line) * hertz_);
+      const double told = value(frequency_, line);
+      made.frequency_Hz.push_back((log_base_ > 0.0 ? std::pow(log_base_, told) : told) * hertz_);
       made.response.push_back(is_polar ? std::polar(1.0, b * radian) *
                                              (is_in_decibel ? std::pow(10.0, a / kDecibels) : a)
                                        : std::complex<double>(a, b));
@@ -271,13 +282,15 @@ class ResponseMaker {
     std::vector<std::size_t> lines;
     for (std::size_t line = 0; line < frequencies.size(); ++line) {
       const bool is_whole = std::ranges::all_of(columns, [&](std::size_t column) {
-        return std::isfinite(table_.columns[column].values[line]);
+        return is_reading(table_.columns[column].values[line]);
       });
-      if (is_whole && std::isfinite(frequencies[line])) lines.push_back(line);
+      if (is_whole && is_reading(frequencies[line])) lines.push_back(line);
     }
     if (lines.size() < frequencies.size()) {
-      note(fmt::format("{} of {} lines left out: a cell is empty or not finite",
-                       frequencies.size() - lines.size(), frequencies.size()));
+      note(
+          fmt::format("{} of {} lines left out: a cell is empty, not finite or an instrument's "
+                      "sign of no measurement",
+                      frequencies.size() - lines.size(), frequencies.size()));
     }
     if (lines.empty()) throw InputError("no line has a frequency and a response");
     std::ranges::stable_sort(lines, {}, [&](std::size_t line) { return frequencies[line]; });
@@ -286,7 +299,8 @@ class ResponseMaker {
 
   const ForeignTable& table_;
   const PartColumn& frequency_;
-  double hertz_ = 1.0;  ///< in one of the frequencies' unit
+  double hertz_ = 1.0;     ///< in one of the frequencies' unit
+  double log_base_ = 0.0;  ///< of the frequencies' logarithms; 0: they are none
   std::vector<std::string> notes_;
 };
 
@@ -324,6 +338,10 @@ ResponseColumns responses_of(const ForeignTable& table, const std::vector<PartCo
   }
   for (const auto& part : parts) {
     const auto& column = table.columns[part.column];
+    if (std::ranges::count(parts, part.column, &PartColumn::column) > 1) {
+      throw InputError(
+          fmt::format("column {}: given for two parts of a response", arm::shown(column.name)));
+    }
     if (!column.is_text()) continue;
     throw InputError(fmt::format("column {} = {}: not a number; {} must be numeric",
                                  arm::shown(column.name), arm::shown(column.texts.front()),
@@ -347,9 +365,24 @@ ResponseColumns responses_in(const ForeignTable& table) {
   auto parts = response_parts(table);
   name_only_pairs_alike(parts);
   const PartColumn* frequency = frequency_of(parts);
-  if (frequency == nullptr) return made;
+  if (frequency == nullptr) {
+    const bool has_complex = std::ranges::any_of(table.columns, [](const ForeignColumn& column) {
+      return column.name.starts_with("imaginary part of ");
+    });
+    if (has_complex) {
+      made.incomplete =
+          "complex numbers, but no column is called frequency; state the parts with --column "
+          "frequency=NAME:Hz, --column hub_angle.real=NAME and --column hub_angle.imaginary=NAME";
+    }
+    return made;
+  }
   auto all = gathered(parts, made.notes, table);
   join_coherences(all);
+  if (all.empty()) {
+    made.incomplete = fmt::format("column {} has frequencies, but no response is beside them",
+                                  arm::shown(table.columns[frequency->column].name));
+    return made;
+  }
   ResponseMaker maker(table, *frequency);
   for (const auto& response : all) {
     const std::string missing = response.missing();
@@ -361,10 +394,6 @@ ResponseColumns responses_in(const ForeignTable& table) {
         fmt::format("response {}: {}",
                     response.name.empty() ? "without a name" : arm::shown(response.name), missing);
     made.notes.push_back(made.incomplete + "; left out");
-  }
-  if (all.empty()) {
-    made.incomplete = fmt::format("column {} has frequencies, but no response is beside them",
-                                  arm::shown(table.columns[frequency->column].name));
   }
   std::ranges::move(maker.take_notes(), std::back_inserter(made.notes));
   if (made.responses.empty()) made.notes.clear();

@@ -4,6 +4,7 @@
 #include "measured/files/foreign_table.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,9 +40,20 @@ struct ResponseColumns {
 /// `hub_angle imag`. None where a column of the same length holds times.
 std::vector<PartColumn> response_parts(const ForeignTable& table);
 
+/// What logarithms are of, by the name of their column.
+struct LogarithmName {
+  double base = 10.0;  ///< 0 where the name leaves it open, "log f"
+  std::string of;      ///< "f [Hz]"
+};
+
+/// "log10(f)", "lg f [Hz]", "ln(w)" of frequencies; nothing for any other name.
+std::optional<LogarithmName> logarithm_of_frequency(std::string_view name);
+
 /// The responses that the parts make, lines by ascending frequency; a line without a number in one
-/// of them is left out. A magnitude in dB is 20 lg|H|. Throws InputError for a part that is given
-/// twice or missing, for columns of unlike length, and for a phase whose unit cannot be told.
+/// of them is left out. A magnitude in dB is 20 lg|H|. Of frequencies whose name is that of
+/// logarithms the powers are taken. Throws InputError for a part that is given twice or missing,
+/// for a column given for two, for columns of unlike length, and for a phase whose unit cannot be
+/// told.
 ResponseColumns responses_of(const ForeignTable& table, const std::vector<PartColumn>& parts);
 
 /// The responses of `response_parts`; those that lack a part are left out and said.

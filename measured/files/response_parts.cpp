@@ -4,8 +4,11 @@
 #include "measured/files/response_unit.hpp"
 #include "measured/files/unit_spelling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -134,12 +137,22 @@ string_view field_of(const ForeignTable& table, string_view name) {
   return is_field ? name.substr(point + 1) : name;
 }
 
+std::string fault_of_factor(const NameFactor& factor) {
+  return fmt::format("its name has {}; write the numbers without it", factor.factor);
+}
+
 /// The frequencies in a column that is called so and whose unit is one of frequencies or not told.
 std::optional<PartColumn> frequencies_of(const ForeignTable& table, std::size_t place) {
   const ForeignColumn& column = table.columns[place];
   if (column.is_text()) return std::nullopt;
-  const std::string letters = plain_letters(split_column_name(field_of(table, column.name)).base);
+  const string_view field = field_of(table, column.name);
+  const auto logarithm = logarithm_of_frequency(field);
+  const ColumnName name = split_column_name(logarithm ? string_view(logarithm->of) : field);
+  const auto factor = factor_in(name.base);
+  const std::string letters = plain_letters(factor ? factor->rest : name.base);
   PartColumn part{ResponsePart::frequency, "", place, column.unit};
+  if (logarithm && !is_canonical_unit(part.unit)) part.unit = name.unit;
+  if (factor) part.fault = fault_of_factor(*factor);
   if (is_among(kRadianWords, letters) && (part.unit.empty() || part.unit == "rad/s")) {
     part.is_unit_assumed = part.unit.empty();
     part.unit = "rad/s";
@@ -180,10 +193,16 @@ std::string fault_of(ResponsePart part, string_view name, const std::vector<Name
   if (part == ResponsePart::magnitude && is_square) {
     return "a square; the magnitude itself must be there, absolute or in dB";
   }
+  const bool is_logarithm =
+      name.find("log10") != string_view::npos || name.find("Log10") != string_view::npos;
+  if (part == ResponsePart::magnitude && is_logarithm) {
+    return "a logarithm; the magnitude itself must be there, absolute or in dB";
+  }
   if (part == ResponsePart::phase && has(kLagWords)) {
     return "a lag, whose sign is the other one; negate it, and call it phase";
   }
-  return "";
+  const auto factor = factor_in(name);
+  return factor ? fault_of_factor(*factor) : "";
 }
 
 std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t place) {
@@ -235,6 +254,30 @@ std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t 
 }
 
 }  // namespace
+
+std::optional<LogarithmName> logarithm_of_frequency(string_view name) {
+  constexpr std::array<std::pair<string_view, double>, 6> kLogarithms = {{{"log10", 10.0},
+                                                                          {"Log10", 10.0},
+                                                                          {"lg", 10.0},
+                                                                          {"ln", std::numbers::e},
+                                                                          {"log", 0.0},
+                                                                          {"Log", 0.0}}};
+  const auto found = std::ranges::find_if(
+      kLogarithms, [&](const auto& entry) { return name.starts_with(entry.first); });
+  if (found == kLogarithms.end()) return std::nullopt;
+  string_view of = name.substr(found->first.size());
+  while (of.starts_with(' ') || of.starts_with('_')) of.remove_prefix(1);
+  if (of.starts_with('(')) {
+    std::size_t end = 1;
+    for (int depth = 1; end < of.size() && depth > 0; ++end) {
+      depth += of[end] == '(' ? 1 : of[end] == ')' ? -1 : 0;
+    }
+    of = of.substr(1, end - 2);
+  }
+  const std::string letters = plain_letters(split_column_name(of).base);
+  if (!is_among(kFrequencyWords, letters) && !is_among(kRadianWords, letters)) return std::nullopt;
+  return LogarithmName{found->second, std::string(of)};
+}
 
 std::vector<PartColumn> response_parts(const ForeignTable& table) {
   std::vector<PartColumn> parts;

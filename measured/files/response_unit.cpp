@@ -5,6 +5,8 @@
 #include "measured/files/delimited_line.hpp"
 #include "measured/files/unit_spelling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -64,6 +66,11 @@ double hertz_in_one(string_view unit) {
   if (unit == "kHz") return 1e3;
   if (unit == "rpm") return 1.0 / 60.0;
   return unit == "rad/s" ? 1.0 / (2.0 * std::numbers::pi) : 0.0;
+}
+
+arm::InputError no_unit_of_frequencies(const std::string& what, const std::string& unit) {
+  return arm::InputError(fmt::format("{}: frequencies in {}; must be in Hz, kHz, rad/s or rpm",
+                                     what, arm::shown(unit)));
 }
 
 }  // namespace flexarm::measured

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arm/input_error.hpp"
+
 #include <string>
 #include <string_view>
 
@@ -20,5 +22,9 @@ bool is_stiffness_unit(std::string_view text);
 
 /// Hz in one of a canonical unit of frequencies, Hz, kHz, rad/s or rpm; 0 for any other.
 double hertz_in_one(std::string_view unit);
+
+/// The error for frequencies in another unit; `what` are the frequencies, as they may stand in a
+/// line.
+arm::InputError no_unit_of_frequencies(const std::string& what, const std::string& unit);
 
 }  // namespace flexarm::measured

@@ -49,7 +49,7 @@ std::size_t count_numbers(std::span<const string_view> cells, char decimal) {
   return static_cast<std::size_t>(std::ranges::count_if(cells, [&](string_view cell) {
     if (parse_cell(cell, decimal)) return true;
     const auto stamp = parse_time_stamp(cell);
-    return stamp && stamp->clock_ns;
+    return (stamp && stamp->clock_ns) || parse_complex_cell(cell, decimal, true);
   }));
 }
 

@@ -23,7 +23,7 @@ struct TableReading {
   std::pair<std::size_t, std::size_t> score() const { return {whole, numbers}; }
 };
 
-/// Numbers and time stamps among the cells.
+/// Numbers, complex ones too, and time stamps among the cells.
 std::size_t count_numbers(std::span<const std::string_view> cells, char decimal);
 
 /// The separator and the decimal mark that make most cells of the lines numbers.

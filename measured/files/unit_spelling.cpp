@@ -132,29 +132,6 @@ constexpr std::array<std::pair<string_view, string_view>, 20> kSigns = {{
     {"_per_", "/"},
 }};
 
-std::string in_plain_signs(string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    // Longer signs first: superscript minus and 2 before superscript 2.
-    string_view best;
-    string_view with;
-    for (const auto& [sign, plain] : kSigns) {
-      if (text.starts_with(sign) && sign.size() > best.size()) {
-        best = sign;
-        with = plain;
-      }
-    }
-    if (best.empty()) {
-      out += text.front();
-      text.remove_prefix(1);
-    } else {
-      out += with;
-      text.remove_prefix(best.size());
-    }
-  }
-  return out;
-}
-
 bool is_unit_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -277,6 +254,29 @@ string_view find_spelled(string_view text, const SpelledUnits& units) {
 }
 
 }  // namespace
+
+std::string in_plain_signs(string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    // Longer signs first: superscript minus and 2 before superscript 2.
+    string_view best;
+    string_view with;
+    for (const auto& [sign, plain] : kSigns) {
+      if (text.starts_with(sign) && sign.size() > best.size()) {
+        best = sign;
+        with = plain;
+      }
+    }
+    if (best.empty()) {
+      out += text.front();
+      text.remove_prefix(1);
+    } else {
+      out += with;
+      text.remove_prefix(best.size());
+    }
+  }
+  return out;
+}
 
 std::string find_unit(string_view text) {
   static const SpelledUnits as_written = spelled_units(false);

@@ -17,6 +17,10 @@ inline constexpr std::size_t kLongestUnit = 64;
 /// MN); otherwise words of more than one letter may be in capitals.
 std::string find_unit(std::string_view text);
 
+/// The text with signs beyond ASCII written in plain ones: "*" for a multiplication sign, "^2" for
+/// a superscript, "deg" for a degree sign.
+std::string in_plain_signs(std::string_view text);
+
 /// Whether the unit is a canonical one.
 bool is_canonical_unit(std::string_view unit);
 

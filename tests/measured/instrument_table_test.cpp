@@ -1,4 +1,5 @@
 // Tables of oscilloscopes and recorders: heads that tell start and period, settings beside samples.
+#include "arm/input_error.hpp"
 #include "measured/files/column_guess.hpp"
 #include "measured/files/foreign_table.hpp"
 
@@ -80,6 +81,22 @@ INSTANTIATE_TEST_SUITE_P(
         Layout{"PicoScope",
                "Time,Channel A,Channel B\n(ms),(V),(V)\n\n-100,1,4\n-98,2,5\n-96,3,6\n",
                "Channel A", "Channel B"},
+        Layout{"YokogawaBesideKeys",
+               "\"Header Size\",16\n\"ModelName\",\"DL850\"\n\"BlockNumber\",1\n"
+               "\"TraceName\",\"CH1\",\"CH2\"\n\"BlockSize\",3,3\n\"VUnit\",\"V\",\"V\"\n"
+               "\"SampleRate\",500,500\n\"HResolution\",2.0E-03,2.0E-03\n"
+               "\"HOffset\",-1.0E-01,-1.0E-01\n\"HUnit\",\"s\",\"s\"\n"
+               "\"Date\",\"2024/03/01\",\"2024/03/01\"\n\"Time\",\"12:00:00.00\",\"12:00:00.00\"\n"
+               "\n,1,4\n,2,5\n,3,6\n",
+               "CH1", "CH2"},
+        Layout{"YokogawaBelowKeys",
+               "TraceName,CH1,CH2\r\nHResolution,2\r\nHOffset,-100\r\nHUnit,ms\r\nVUnit,V,V\r\n"
+               "Date,2024/03/01\r\nTime,12:00:00.00\r\n1,4,\r\n2,5,\r\n3,6,\r\n",
+               "CH1", "CH2"},
+        Layout{"YokogawaWithTimes",
+               "\"TraceName\",\"CH1\",\"CH2\"\n\"HUnit\",\"ms\"\n\"Time\",\"12:00:00\"\n"
+               "-100,1,4\n-98,2,5\n-96,3,6\n",
+               "CH1", "CH2"},
         Layout{"Rohde", "in s,CH1 in V,CH2 in V\n-0.1,1,4\n-0.098,2,5\n-0.096,3,6\n", "CH1 in V",
                "CH2 in V"},
         Layout{"RateInThePreamble",
@@ -123,6 +140,30 @@ TEST(InstrumentHead, SettingsBesideSamplesAreNoSamples) {
     }
     const auto guess = guess_columns(labels_of(table), {});
     EXPECT_EQ(guess.mappings.at("time").name, "time");
+  }
+}
+
+TEST(InstrumentHead, KeysOfARecorderTellNamesAndUnits) {
+  const auto text = [](const char* time_unit, const char* periods) {
+    return fmt::format(
+        "\"Model Name\",\"DL850E\"\n\"TraceName\",\"Torque\",\"Angle\"\n\"VUnit\",\"Nm\",\"deg\"\n"
+        "\"HResolution\",{}\n\"HUnit\",\"{}\"\n\"Time\",\"12:00:00\",\"12:00:00\"\n"
+        ",0.1,4\n,0.2,5\n,0.3,6\n",
+        periods, time_unit);
+  };
+  const auto table = parse_foreign_table(text("s", "5e-3,5e-3"), "dl.csv");
+  const auto guess = guess_columns(labels_of(table), {});
+  EXPECT_EQ(guess.mappings.at("torque").name, "Torque");
+  EXPECT_EQ(guess.mappings.at("torque").unit, "N m");
+  EXPECT_EQ(guess.mappings.at("hub_angle").unit, "deg");
+  EXPECT_THAT(column(table, "time [s]").values, ElementsAre(0.0, 0.005, 0.01));
+  EXPECT_FALSE(guess_columns(labels_of(parse_foreign_table(text("Hz", "5e-3,5e-3"), "dl.csv")), {})
+                   .mappings.contains("time"));
+  try {
+    parse_foreign_table(text("s", "5e-3,1e-3"), "dl.csv");
+    FAIL() << "accepted";
+  } catch (const arm::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("HResolution 5e-3 and 1e-3: signals of unlike sampling"));
   }
 }
 

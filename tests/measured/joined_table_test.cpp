@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace flexarm::measured {
 namespace {
@@ -81,6 +83,46 @@ TEST(JoinedTable, ASmoothSignalIsTakenByCubics) {
   constexpr double kCubicError = 1e-8 * 625.0;
   for (std::size_t k = 5; k + 5 < table.columns[0].values.size(); ++k) {
     EXPECT_NEAR(table.columns[2].values[k], smooth(table.columns[0].values[k]), kCubicError);
+  }
+}
+
+TEST(JoinedTable, SamplesThatAreMissingAreNotMade) {
+  auto angle = signal("b.csv", "theta", 0.0, 0.004, 500, smooth);
+  auto torque = signal("c.csv", "torque", 0.0, 0.0025, 800, steps);
+  const auto unread = [](TimedSignals& file, std::size_t first, std::size_t last) {
+    std::fill(file.columns[0].values.begin() + static_cast<std::ptrdiff_t>(first),
+              file.columns[0].values.begin() + static_cast<std::ptrdiff_t>(last), NAN);
+  };
+  unread(angle, 100, 130);
+  unread(angle, 250, 251);
+  unread(torque, 160, 168);
+  const auto table = joined_table({signal("a.csv", "acc", 0.0, 0.01, 190, smooth), angle, torque},
+                                  JoinGrid::first, is_torque);
+  ASSERT_EQ(table.columns[0].values.size(), 190U);
+  for (std::size_t k = 0; k < 190; ++k) {
+    const double time_s = table.columns[0].values[k];
+    const bool has_no_angle = (k >= 40 && k < 52) || k == 100;
+    EXPECT_EQ(std::isnan(table.columns[2].values[k]), has_no_angle) << time_s;
+    if (!has_no_angle) {
+      EXPECT_NEAR(table.columns[2].values[k], smooth(time_s), 1e-7);
+    }
+    const bool has_no_torque = k == 40 || k == 41;
+    EXPECT_EQ(std::isnan(table.columns[3].values[k]), has_no_torque) << time_s;
+    if (!has_no_torque) {
+      EXPECT_NEAR(table.columns[3].values[k], steps(time_s), 1e-6);
+    }
+  }
+}
+
+TEST(JoinedTable, RowsThatAreAbsentAreNotMade) {
+  auto angle = signal("b.csv", "theta", 0.0, 0.004, 500, smooth);
+  for (auto* values : {&angle.times_s, &angle.columns[0].values}) {
+    values->erase(values->begin() + 100, values->begin() + 130);
+  }
+  const auto table = joined_table({signal("a.csv", "torque", 0.0, 0.01, 190, steps), angle},
+                                  JoinGrid::first, is_torque);
+  for (std::size_t k = 0; k < 190; ++k) {
+    EXPECT_EQ(std::isnan(table.columns[2].values[k]), k >= 40 && k < 52) << k;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "measured/files/json_table.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_guess.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -61,6 +62,66 @@ std::string refusal_of(const std::string& json) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(JsonTableTest, NamedSignalsAreColumns) {
+  for (const auto* json :
+       {R"([{"name": "time", "unit": "s", "data": [0, 0.1, 0.2]},
+            {"name": "tau", "unit": "N m", "data": [1, 2, 3]},
+            {"name": "theta", "unit": "deg", "data": [4, 5, 6]}])",
+        R"([{"name": "tau", "units": "Nm", "values": [1, 2, 3], "dt": 0.1},
+            {"name": "theta", "units": "degrees", "values": [4, 5, 6], "dt": 0.1}])",
+        R"({"rig": 3, "signals": [{"label": "tau", "y": [1, 2, 3], "y_unit": "N m"},
+            {"label": "theta", "y": [4, 5, 6], "y_unit": "deg"}], "fs": 10})",
+        R"([{"name": "tau", "unit": "N m", "time": [0, 0.1, 0.2], "samples": [1, 2, 3]},
+            {"name": "theta", "unit": "deg", "time": [0, 0.1, 0.2], "samples": [4, 5, 6]}])",
+        R"({"log": {"channels": [
+            {"Name": "tau [N m]", "Data": [1, 2, 3], "fs": 10, "fs_unit": "Hz"},
+            {"Name": "theta", "Unit": "deg", "Data": [4, 5, 6], "fs": 10, "fs_unit": "Hz"}]}})",
+        R"([{"channel": "tau", "unit": "N m", "value": [1, 2, 3], "dt": 100, "dt_unit": "ms"},
+            {"channel": "theta", "unit": "deg", "value": [4, 5, 6], "sample_rate_Hz": 10}])",
+        R"({"dt": 0.1, "tau": [1, 2, 3], "theta": {"unit": "deg", "values": [4, 5, 6]}})"}) {
+    const auto table = parse_json_table(json, "s.json").table;
+    const auto guess = guess_columns(labels_of(table), {});
+    ASSERT_TRUE(guess.mappings.contains("time")) << json;
+    ASSERT_TRUE(guess.mappings.contains("torque")) << json;
+    ASSERT_TRUE(guess.mappings.contains("hub_angle")) << json;
+    const auto values = [&](const char* quantity) {
+      return table.columns[find_column(table, guess.mappings.at(quantity).name)].values;
+    };
+    EXPECT_THAT(values("time"), ElementsAre(0.0, 0.1, 0.2)) << json;
+    EXPECT_THAT(values("torque"), ElementsAre(1.0, 2.0, 3.0)) << json;
+    EXPECT_THAT(values("hub_angle"), ElementsAre(4.0, 5.0, 6.0)) << json;
+    EXPECT_EQ(guess.mappings.at("hub_angle").unit, "deg") << json;
+    EXPECT_EQ(table.columns.size(), 3U) << json;
+  }
+  const auto in_ms = parse_json_table(
+      R"([{"name": "tau", "x": [0, 100], "x_unit": "ms", "y": [1, 2], "unit": "N m"},
+          {"name": "theta", "x": [0, 100], "x_unit": "ms", "y": [3, 4], "unit": "rad"}])",
+      "s.json");
+  ASSERT_EQ(in_ms.table.columns.size(), 3U);
+  const auto& time = in_ms.table.columns[find_column(in_ms.table, "time")];
+  EXPECT_THAT(time.values, ElementsAre(0.0, 100.0));
+  EXPECT_EQ(time.unit, "ms");
+}
+
+TEST(JsonTableTest, SignalsThatDoNotBelongTogetherAreRefused) {
+  EXPECT_THAT(refusal_of(R"([{"name": "a", "t": [0, 1], "y": [1, 2]},
+                             {"name": "b", "t": [0, 2], "y": [1, 2]}])"),
+              HasSubstr("a.json: signals a and b: times of their own that differ; save each in a "
+                        "file of its own and join them with --join"));
+  EXPECT_THAT(refusal_of(R"([{"name": "a", "data": [1, 2]}, {"name": "a", "data": [1, 2]}])"),
+              HasSubstr("a.json: signal a: given twice"));
+  const auto several = parse_json_table(R"([{"name": "a", "data": [1, 2], "dt": 0.1},
+                                            {"name": "b", "data": [1, 2], "dt": 0.2}])",
+                                        "f");
+  EXPECT_EQ(several.table.columns.size(), 2U);
+  EXPECT_THAT(several.table.assumptions,
+              Contains("sampling periods of 0.1 s and 0.2 s are told; state one with --period"));
+  // The rate of the instrument beside a frequency response makes no times.
+  const auto response =
+      parse_json_table(R"({"fs": 1000, "f": [1, 2], "mag": [1, 2], "phase": [3, 4]})", "f");
+  EXPECT_EQ(response.table.columns.size(), 3U);
 }
 
 TEST(JsonTableTest, UnitsBesideListsAreThoseOfTheLists) {

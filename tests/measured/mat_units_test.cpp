@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <matio.h>
@@ -120,6 +121,71 @@ TEST_F(MatUnits, TheUnitOfFrequenciesIsThatBesideThemOrSaidToBeAssumed) {
   EXPECT_EQ(named.responses[0].frequency_Hz[1], 2000.0);
   EXPECT_EQ(named.responses[0].unit, "deg");
   EXPECT_THAT(named.table.assumptions, ElementsAre("f_kHz holds frequencies in kHz"));
+}
+
+/// Torque and angle in columns, or times in front of them.
+matvar_t* matrix(bool with_times) {
+  std::vector<double> values = with_times ? times_s() : std::vector<double>{};
+  for (const auto& more : {torques_N_m(), angles_rad()}) {
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  return numbers(values, {kSamples, values.size() / kSamples});
+}
+
+TEST_F(MatUnits, AListOfUnitsBesideAListOfNamesIsTheirs) {
+  const auto expect_units = [](const ForeignFile& file) {
+    expect_told(file);
+    for (const auto& [name, unit] : {std::pair{"tau", "N m"}, std::pair{"theta", "deg"}}) {
+      const auto& signal = file.table.columns[find_column(file.table, name)];
+      EXPECT_EQ(signal.unit, unit);
+    }
+  };
+  const auto names = [] { return cells(1, 2, {text("tau"), text("theta")}); };
+  const auto units = [] { return cells(1, 2, {text("Nm"), text("deg")}); };
+  for (const auto* called : {"units", "Unit", "channel_units", "Einheiten"}) {
+    expect_units(read({{"t", column(times_s())},
+                       {"names", names()},
+                       {called, units()},
+                       {"data", matrix(false)}}));
+  }
+  expect_units(read({{"units", cells(3, 1, {text("s"), text("N*m"), text("degrees")})},
+                     {"labels", cells(3, 1, {text("t"), text("tau"), text("theta")})},
+                     {"data", matrix(true)}}));
+  expect_units(read({{"log", structures({{{"t", column(times_s())},
+                                          {"names", names()},
+                                          {"units", units()},
+                                          {"data", matrix(false)}}})}}));
+  expect_units(read({{"t", column(times_s())},
+                     {"names", names()},
+                     {"units", units()},
+                     {"log", cells(1, 2, {column(torques_N_m()), column(angles_rad())})}}));
+  expect_units(read(
+      {{"log", cells(3, 3,
+                     {text("t"), text("s"), column(times_s()), text("tau"), text("Nm"),
+                      column(torques_N_m()), text("theta"), text("deg"), column(angles_rad())})}}));
+}
+
+TEST_F(MatUnits, AListOfUnitsThatDoesNotFitIsRefused) {
+  const auto refusal = [&](const std::vector<Field>& variables) {
+    try {
+      read(variables);
+    } catch (const arm::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal({{"t", column(times_s())},
+                       {"names", cells(1, 2, {text("tau"), text("theta")})},
+                       {"units", cells(1, 3, {text("s"), text("Nm"), text("deg")})},
+                       {"data", matrix(false)}}),
+              HasSubstr("log.mat: a list of 3 units beside one of 2 names, tau, theta; must be one "
+                        "for each"));
+  EXPECT_THAT(refusal({{"t", column(times_s())},
+                       {"names", cells(1, 2, {text("tau"), text("theta [rad]")})},
+                       {"units", cells(1, 2, {text("Nm"), text("deg")})},
+                       {"data", matrix(false)}}),
+              HasSubstr("theta [rad]: in rad by its name, in deg by the list of units; must be the "
+                        "same"));
 }
 
 TEST_F(MatUnits, BesideTimesTheUnitOfWIsThatOfAVelocity) {

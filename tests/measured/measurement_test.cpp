@@ -191,6 +191,11 @@ const std::vector<Mistake> kMeasurementMistakes = {
          "columns = { torque = { name = \"T\", unit = \"N cm\", scale = 0.5 } }\n",
      "7: run.columns.torque.scale = 0.5: in N cm, or from N cm to N m; write unit = \"N m\", with "
      "scale = 0.005 if it is in N cm, 0.5 if not"},
+    {"ScaleNearThatOfTheUnit",
+     kMeasurementHead + kRun +
+         "columns = { time = { name = \"t\", unit = \"ms\", scale = 0.00098 } }\n",
+     "7: run.columns.time.scale = 0.00098: 2 % off the conversion of ms, 0.001; write unit s, with "
+     "scale 0.00098 if it is the whole conversion, 9.8e-07 if it is in ms"},
     {"ScaleZero", kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", scale = 0 } }\n",
      "7: run.columns.torque.scale = 0: must be a finite number, not 0"},
     {"ScaleIsAText",

@@ -1,6 +1,7 @@
 #include "measured/files/response_columns.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/delimited_line.hpp"
 #include "measured/files/foreign_table.hpp"
 #include "measured/files/response_unit.hpp"
 
@@ -8,9 +9,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -211,7 +214,8 @@ TEST(ResponseColumns, WhatIsNotToldIsAssumedAndSaid) {
   EXPECT_NEAR(std::abs(made.responses[0].response[0]), std::pow(10.0, -0.3), 1e-15);
   EXPECT_THAT(made.notes, Contains("unit of mag not given; dB assumed"));
   EXPECT_THAT(made.notes, Contains("unit of phase not given; deg assumed"));
-  EXPECT_THAT(made.notes, Contains("2 of 4 lines left out: a cell is empty or not finite"));
+  EXPECT_THAT(made.notes, Contains("2 of 4 lines left out: a cell is empty, not finite or an "
+                                   "instrument's sign of no measurement"));
   const auto unclear = parse_foreign_table("f,mag,phase\n1,1,-8\n2,1,-9\n", "a.csv");
   EXPECT_THROW(responses_in(unclear), arm::InputError);
 }
@@ -226,6 +230,97 @@ TEST(ResponseColumns, SignalsInTimeAreNone) {
             "response without a name: magnitude without phase");
 }
 
+TEST(ResponseColumns, ComplexCellsAreNumbers) {
+  const auto expect = [](const char* cell, Complex right) {
+    EXPECT_EQ(parse_complex_cell(cell, '.'), right) << cell;
+  };
+  expect("1+2j", {1.0, 2.0});
+  expect("(1-2i)", {1.0, -2.0});
+  expect("1.5e-3 - 2e-4*i", {1.5e-3, -2e-4});
+  expect("(1.0e+00+-2.0e+00j)", {1.0, -2.0});
+  expect("-1+j2", {-1.0, 2.0});
+  expect("3-j", {3.0, -1.0});
+  expect("-2.5e-3i", {0.0, -2.5e-3});
+  EXPECT_EQ(parse_complex_cell("1,5-0,5i", ','), Complex(1.5, -0.5));
+  for (const auto* none : {"", "1", "-1.5", "1+2", "i", "J1", "j1", "Ti", "inf", "nan", "-1.#IND",
+                           "12:00:00", "3 jan 2024", "bias 3i", "1+2j+3", "i1+2"}) {
+    EXPECT_EQ(parse_complex_cell(none, '.'), std::nullopt) << none;
+  }
+}
+
+TEST(ResponseColumns, CellsOfComplexNumbersAreAResponse) {
+  struct Layout {
+    const char* header;
+    const char* row;
+    char decimal = '.';
+  };
+  for (const Layout& layout :
+       {Layout{"f [Hz],hub_angle [rad]", "{:.17g},{:.17g}{:+.17g}j"},
+        Layout{"f [Hz],hub_angle [rad]", "{:.17g},({:.17g}{:+.17g}j)"},
+        Layout{"frequency\thub_angle (rad/(N m))", "{:.17g}\t{:.17g} {:+.17g}i"},
+        Layout{"# f,hub_angle [rad]", "({:.17e}+0.0e+00j),({:.17e}{:+.17e}j)"},
+        Layout{"f hub_angle_rad", " ({:.17e}+0.0e+00j)  ({:.17e}{:+.17e}j) "},
+        Layout{"Frequenz [Hz];hub_angle [rad]", "{:.17g};{:.17g}{:+.17g}*i", ','}}) {
+    std::string text = table_text(layout.header, [&](double f, Complex h) {
+      std::string row = fmt::format(fmt::runtime(layout.row), f, h.real(), h.imag());
+      std::ranges::replace(row, '.', layout.decimal);
+      return row;
+    });
+    const auto table = parse_foreign_table(text, "h.csv");
+    const auto made = responses_in(table);
+    ASSERT_EQ(made.responses.size(), 1U) << layout.header << made.incomplete;
+    EXPECT_EQ(made.responses[0].name, "hub_angle") << layout.header;
+    EXPECT_EQ(made.responses[0].unit, "rad") << layout.header;
+    expect_response(made.responses[0]);
+    EXPECT_EQ(table.columns[find_column(table, "#2")].path,
+              std::string(layout.header).substr(std::string(layout.header).find("hub_angle")));
+    EXPECT_THAT(table.assumptions, Contains(HasSubstr("holds complex numbers: real part of")));
+  }
+  const auto two = responses_in(parse_foreign_table("f,H1,H2\n1,1+2j,3\n2,,1e-3-2j\n", "h.csv"));
+  ASSERT_EQ(two.responses.size(), 2U);
+  EXPECT_EQ(two.responses[0].name, "H1");
+  EXPECT_THAT(two.responses[0].response, ElementsAre(Complex(1.0, 2.0)));
+  EXPECT_EQ(two.responses[1].name, "H2");
+  EXPECT_THAT(two.responses[1].response, ElementsAre(Complex(3.0, 0.0), Complex(1e-3, -2.0)));
+  EXPECT_THAT(responses_in(parse_foreign_table("1,1+2j\n2,3+4j\n", "h.csv")).incomplete,
+              HasSubstr("complex numbers, but no column is called frequency; state the parts"));
+}
+
+TEST(ResponseColumns, LogarithmsOfFrequenciesAreTakenBack) {
+  struct Header {
+    const char* text;
+    double (*logarithm)(double frequency_Hz);
+  };
+  const auto lg = [](double f) { return std::log10(f); };
+  const auto lg_of_w = [](double f) { return std::log10(kWholeTurn_rad * f); };
+  for (const Header& header :
+       {Header{"log10(f)", lg}, Header{"log10(f [Hz])", lg}, Header{"log10(f) [Hz]", lg},
+        Header{"lg f [Hz]", lg}, Header{"log10_f_Hz", lg}, Header{"Log10 Frequency (Hz)", lg},
+        Header{"log10(f/Hz)", lg}, Header{"ln(f)", [](double f) { return std::log(f); }},
+        Header{"log10(w)", lg_of_w}, Header{"log10(omega) [rad/s]", lg_of_w}}) {
+    const auto made = responses_in(parse_foreign_table(
+        table_text(
+            std::string(header.text) + ",mag [dB],phase [deg]",
+            [&](double f, Complex h) { return polar(header.logarithm(f), h, ",", true, true); }),
+        "log.csv"));
+    ASSERT_EQ(made.responses.size(), 1U) << header.text;
+    expect_response(made.responses[0]);
+    EXPECT_THAT(made.notes, Contains(HasSubstr("holds logarithms to base"))) << header.text;
+  }
+  const auto refusal = [](const std::string& header) {
+    try {
+      responses_in(parse_foreign_table(header + "\n0,1,2\n1,2,3\n", "log.csv"));
+    } catch (const arm::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal("log f,mag [dB],phase [deg]"),
+            "frequency log f: a logarithm to base 10 or e; call it log10(f) or ln(f), or write the "
+            "frequencies themselves");
+  EXPECT_THAT(refusal("f,log10 mag,phase [deg]"), HasSubstr("magnitude log10 mag: a logarithm"));
+}
+
 TEST(ResponseColumns, PartsMayBeStated) {
   const auto table = parse_foreign_table(
       table_text("a,b,c", [](double f, Complex h) { return polar(f, h, ",", true, true); }),
@@ -236,6 +331,10 @@ TEST(ResponseColumns, PartsMayBeStated) {
   ASSERT_EQ(made.responses.size(), 1U);
   expect_response(made.responses[0]);
   EXPECT_THROW(responses_of(table, {{ResponsePart::magnitude, "x", 1, "dB"}}), arm::InputError);
+  EXPECT_THROW(responses_of(table, {{ResponsePart::frequency, "", 0, "Hz"},
+                                    {ResponsePart::real, "x", 1, "1"},
+                                    {ResponsePart::imaginary, "x", 1, "1"}}),
+               arm::InputError);
   EXPECT_THROW(responses_of(table, {{ResponsePart::frequency, "", 0, "Hz"},
                                     {ResponsePart::magnitude, "x", 1, "dB"}}),
                arm::InputError);

@@ -57,7 +57,7 @@ bool is_list_of_named(const Json& list) {
 }
 
 /// The unit that a key of a signal tells of its list, "unit" or "y_unit".
-bool is_unit_of(const std::string& key, const std::string& list_key) {
+bool tells_unit_of_list(const std::string& key, const std::string& list_key) {
   const auto list = list_of_unit_key(key);
   return list && (list->empty() || *list == list_key);
 }
@@ -86,7 +86,7 @@ void add_signals(const Json& list, Json& object) {
     }
     Json settings = Json::object();
     for (const auto& [key, value] : signal.items()) {
-      if (value.is_string() && is_unit_of(key, list_key)) {
+      if (value.is_string() && tells_unit_of_list(key, list_key)) {
         object[name + "_unit"] = value;
       } else if (value.is_string() && times != nullptr && list_of_unit_key(key) == time_key) {
         object["time_unit"] = value;

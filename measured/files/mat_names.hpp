@@ -59,7 +59,7 @@ class MatNames {
   std::set<std::string, std::less<>> frequencies_in_;           ///< owners of vectors called so
 };
 
-/// What holds a field: "a.b(2)" of "a.b(2).c"; empty for a variable.
+/// The path of what holds a field: "a.b(2)" of "a.b(2).c"; empty for a variable.
 std::string_view owner_of(std::string_view path);
 
 /// The field behind the last point of a path, in lower case and without an index.

@@ -40,7 +40,7 @@ struct ResponseColumns {
 /// `hub_angle imag`. None where a column of the same length holds times.
 std::vector<PartColumn> response_parts(const ForeignTable& table);
 
-/// What logarithms are of, by the name of their column.
+/// The base of the logarithms in a column, and the name of their numbers.
 struct LogarithmName {
   double base = 10.0;  ///< 0 where the name leaves it open, "log f"
   std::string of;      ///< "f [Hz]"

@@ -249,18 +249,18 @@ TEST(ResponseColumns, ComplexCellsAreNumbers) {
 }
 
 TEST(ResponseColumns, CellsOfComplexNumbersAreAResponse) {
-  struct Layout {
+  struct ComplexCells {
     const char* header;
     const char* row;
     char decimal = '.';
   };
-  for (const Layout& layout :
-       {Layout{"f [Hz],hub_angle [rad]", "{:.17g},{:.17g}{:+.17g}j"},
-        Layout{"f [Hz],hub_angle [rad]", "{:.17g},({:.17g}{:+.17g}j)"},
-        Layout{"frequency\thub_angle (rad/(N m))", "{:.17g}\t{:.17g} {:+.17g}i"},
-        Layout{"# f,hub_angle [rad]", "({:.17e}+0.0e+00j),({:.17e}{:+.17e}j)"},
-        Layout{"f hub_angle_rad", " ({:.17e}+0.0e+00j)  ({:.17e}{:+.17e}j) "},
-        Layout{"Frequenz [Hz];hub_angle [rad]", "{:.17g};{:.17g}{:+.17g}*i", ','}}) {
+  for (const ComplexCells& layout :
+       {ComplexCells{"f [Hz],hub_angle [rad]", "{:.17g},{:.17g}{:+.17g}j"},
+        ComplexCells{"f [Hz],hub_angle [rad]", "{:.17g},({:.17g}{:+.17g}j)"},
+        ComplexCells{"frequency\thub_angle (rad/(N m))", "{:.17g}\t{:.17g} {:+.17g}i"},
+        ComplexCells{"# f,hub_angle [rad]", "({:.17e}+0.0e+00j),({:.17e}{:+.17e}j)"},
+        ComplexCells{"f hub_angle_rad", " ({:.17e}+0.0e+00j)  ({:.17e}{:+.17e}j) "},
+        ComplexCells{"Frequenz [Hz];hub_angle [rad]", "{:.17g};{:.17g}{:+.17g}*i", ','}}) {
     std::string text = table_text(layout.header, [&](double f, Complex h) {
       std::string row = fmt::format(fmt::runtime(layout.row), f, h.real(), h.imag());
       std::ranges::replace(row, '.', layout.decimal);

@@ -136,6 +136,10 @@ TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
         "payload = { mass = 0.1 }\n");
   write("uncertain.toml", std::string(kSoftRoot).replace(7, 0, "length_uncertainty = 0.01\n"));
   succeed({"simulate", "soft.toml", "--duration", "1", "--modes", "8", "--out", "run"});
+  write("late.toml",
+        "arm = \"soft.toml\"\n"
+        "[[run]]\nid = \"sine\"\nkind = \"frf\"\nfile = \"frf.csv\"\n"
+        "[[run]]\nid = \"log\"\nkind = \"time\"\nfile = \"run/bang-bang.csv\"\n");
   const auto compared = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "compare");
     arguments.insert(arguments.end(), {"--poles", "2", "--zeros", "2", "--json", "out.json"});
@@ -147,6 +151,7 @@ TEST_F(JsonSchema, WhatCompareWritesIsWhatTheDocumentSays) {
                         compared({"--quick", "--measured", "frf.csv"}),
                         compared({"--quick", "--measured", "m.toml"}),
                         compared({"--quick", "--measured", "run/measurement.toml"}),
+                        compared({"--measured", "late.toml", "--time-limit", "1e-6"}),
                         compared({"soft.toml", "--quick"})},
                        "flexarm.compare/1");
 }

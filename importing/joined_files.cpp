@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/read_word.hpp"
 #include "measured/files/column_lookup.hpp"
+#include "measured/files/common_clock.hpp"
 #include "measured/files/missing_signs.hpp"
 
 #include <fmt/format.h>
@@ -108,7 +109,8 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
       if (!note.empty()) assumptions.push_back(note);
     }
     leave_out_untimed(columns, place, name, assumptions);
-    TimedSignals signals{name, std::move(columns[place].values), {}};
+    TimedSignals signals{
+        name, std::move(columns[place].values), {}, columns[place].start, columns[place].is_stamp};
     const auto unit = measured::unit_of("time", mapping.unit).value_or(measured::Unit{});
     for (auto& time : signals.times_s) time = unit.to_si(time * mapping.scale);
     require_increasing(signals.times_s);
@@ -172,6 +174,7 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
     names.push_back(file);
     signals.push_back(timed_signals(std::move(read), choice, assumptions));
   }
+  std::ranges::move(measured::put_on_one_clock(signals), std::back_inserter(assumptions));
   measured::name_joined_columns(signals);
 
   FileChoice of_joined = choice;

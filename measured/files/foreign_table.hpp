@@ -1,7 +1,10 @@
 #pragma once
 
+#include "measured/files/time_stamp.hpp"
+
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +23,8 @@ struct ForeignColumn {
   std::string path = {};                ///< where it stands in a file of structures; empty: by name
   std::string stray = {};     ///< the only text of a column that has numbers besides; empty: none
   std::size_t stray_row = 0;  ///< where it stands first
+  /// Holds the moment at which a time is 0, of time stamps or of the head of a file; empty: not told.
+  std::optional<ClockStart> start = std::nullopt;
 
   bool is_text() const { return !texts.empty(); }
   /// Whether it has no number at all.

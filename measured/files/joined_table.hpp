@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,8 @@ struct TimedSignals {
   std::string file;             ///< as it may stand in a line
   std::vector<double> times_s;  ///< strictly increasing, two or more, one clock for all files
   std::vector<ForeignColumn> columns;  ///< of numbers, as long; NaN where one is missing
+  std::optional<ClockStart> start = std::nullopt;  ///< moment at which the time is 0, if told
+  bool is_stamped = false;                         ///< times of stamps, which count from `start`
 };
 
 /// One table of the signals of several files: "time [s]", then their columns, over the time in

@@ -15,7 +15,6 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kDay_s = 86400.0;
 constexpr double kHour_s = 3600.0;
 /// Seconds since 1970 are above this, those since the start of a record below.
@@ -27,7 +26,7 @@ double seconds_between(const ClockStart& from, const ClockStart& to) {
          static_cast<double>(to.ns % kSecond_ns - from.ns % kSecond_ns) / kSecond_ns;
 }
 
-bool is_within(const ClockStart& start, double turn_s) {
+bool is_within_turn(const ClockStart& start, double turn_s) {
   return start.ns >= 0 && static_cast<double>(start.ns) < turn_s * kSecond_ns;
 }
 
@@ -92,7 +91,8 @@ class CommonClock {
     const ClockStart& base = *files_[base_].start;
     for (const auto& file : files_) {
       double offset_s = seconds_between(base, *file.start);
-      const bool is_clock = dated == 0 && is_within(base, turn_s) && is_within(*file.start, turn_s);
+      const bool is_clock =
+          dated == 0 && is_within_turn(base, turn_s) && is_within_turn(*file.start, turn_s);
       if (is_clock || !are_of_one_kind) offset_s = std::remainder(offset_s, turn_s);
       offsets_s_.push_back(offset_s);
     }

@@ -30,18 +30,17 @@ constexpr std::array<string_view, 9> kMicro = {"us",           "usec",         "
                                                "micros",       "micro",        "microsecond",
                                                "microseconds", "mikrosekunde", "mikrosekunden"};
 
-bool is_named(const ForeignColumn& column, std::span<const string_view> words) {
+bool is_word_for(const ForeignColumn& column, std::span<const string_view> words) {
   const ColumnName name = split_column_name(column.name);
   return std::ranges::count(words, plain_letters(column.name)) > 0 ||
          std::ranges::count(words, plain_letters(name.base)) > 0;
 }
 
 bool is_part(const ForeignColumn& column) {
-  return is_named(column, kMilli) || is_named(column, kMicro);
+  return is_word_for(column, kMilli) || is_word_for(column, kMicro);
 }
 
 bool is_of_whole_seconds(const ForeignColumn& column) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const bool is_in_s = column.is_stamp || column.unit == "s" || column.unit.empty();
   return is_in_s && is_time_column(column) && !is_part(column) && !column.holds_nothing() &&
          (!column.start || column.start->ns % kSecond_ns == 0) &&
@@ -73,7 +72,7 @@ void complete_whole_seconds(ForeignTable& table) {
   std::vector<std::string> used;
   for (const auto& [words, unit_s] :
        {std::pair{std::span<const string_view>(kMilli), 1e-3}, {kMicro, 1e-6}}) {
-    const auto is_such = [&](const ForeignColumn& column) { return is_named(column, words); };
+    const auto is_such = [&](const ForeignColumn& column) { return is_word_for(column, words); };
     const auto part = std::ranges::find_if(columns, is_such);
     const bool fits =
         std::ranges::count_if(columns, is_such) == 1 && part->values.size() == made.size() &&

@@ -20,7 +20,6 @@ namespace {
 using std::string_view;
 using Days = std::optional<std::int64_t>;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kMinute_ns = 60 * kSecond_ns;
 constexpr std::int64_t kHour_ns = 60 * kMinute_ns;
 constexpr std::int64_t kDay_ns = 24 * kHour_ns;

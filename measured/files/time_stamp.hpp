@@ -8,6 +8,8 @@
 
 namespace flexarm::measured {
 
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
 /// Date and time of day in a cell, or one of them.
 struct TimeStamp {
   /// Days since 1970-01-01, of 1/3/2024 with the day first and with the month first; the same where

@@ -117,6 +117,23 @@ TEST_F(ImportJoin, StampsWithoutACommonTimeAreRefused) {
       "of 0 s is not told; write both with time stamps, or both in seconds of one clock");
 }
 
+TEST_F(ImportJoin, ARunThatBeginsAfterItsTorqueIsFree) {
+  using measured::InitialState;
+  write_pair(since_start, since_start);
+  EXPECT_EQ(imported({"a.csv", "b.csv", "--join"}).run.initial, InitialState::free);
+  EXPECT_EQ(imported({"a.csv", "b.csv", "--join", "--hold", "first"}).run.initial,
+            InitialState::free);
+  EXPECT_EQ(imported({"a.csv", "b.csv", "--join", "--initial", "rest"}).run.initial,
+            InitialState::rest);
+  // The torque of the joined run, 0 before, acts from 100 ms on.
+  std::string torque = "time,torque [N m]\n";
+  for (int ms = 0; ms < 600; ms += 2) {
+    torque += fmt::format("{},{}\n", since_start(ms), ms < 100 ? 0 : ms);
+  }
+  write("a.csv", torque);
+  EXPECT_EQ(imported({"a.csv", "b.csv", "--join"}).run.initial, InitialState::rest);
+}
+
 /// A LabVIEW file whose head tells the clock, and X0 in s.
 std::string labview(const std::string& channel, const std::string& clock, double x0_s,
                     int first_ms) {

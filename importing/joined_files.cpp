@@ -156,7 +156,8 @@ std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
 }
 
 /// Whether a column of the torque is not 0 in front of the time that all files share.
-bool torque_acts_before(const std::vector<TimedSignals>& files, const std::set<std::string>& torque) {
+bool torque_acts_before(const std::vector<TimedSignals>& files,
+                        const std::set<std::string>& torque) {
   double from_s = -HUGE_VAL;
   for (const auto& file : files) from_s = std::max(from_s, file.times_s.front());
   for (const auto& file : files) {

@@ -304,6 +304,29 @@ TEST_F(ImportKinds, MillisecondsOfTheirOwnColumnCompleteWholeSeconds) {
   EXPECT_THAT(import({"split.csv"}).errors, HasSubstr("--period"));
 }
 
+TEST_F(ImportKinds, TimesThatDoNotRunAreNamed) {
+  std::string falling = "time [s],torque [N m],hub_angle [rad]\n";
+  std::string equal = falling;
+  std::string second = "time [s],torque [N m],time2 [s],hub_angle [rad]\n";
+  for (int k = 0; k < 20; ++k) {
+    falling += fmt::format("{:.3f},{},{}\n", 0.002 * (20 - k), k, -k);
+    equal += fmt::format("1.709e+09,{},{}\n", k, -k);
+    second += fmt::format("{:.3f},{},{:.3f},{}\n", 0.002 * k, k, 0.002 * k + 0.01, -k);
+  }
+  write("log.csv", falling);
+  expect_refused(import({"log.csv"}),
+                 "log.csv: time falls from 0.04 s to 0.038 s in line 3, and in 19 of 20 rows; "
+                 "write the rows in the order of their times");
+  write("log.csv", equal);
+  expect_refused(import({"log.csv"}),
+                 "log.csv: time = 1709000000 s in all 20 rows; write it with more digits, take "
+                 "another column with --column time=NAME, or state the sampling period with "
+                 "--period");
+  write("log.csv", second);
+  EXPECT_THAT(import({"log.csv"}).output,
+              HasSubstr("time2 [s] is a second time, up to 0.01 s off"));
+}
+
 TEST_F(ImportKinds, NamesOfFilesMakeShortIds) {
   const std::string log = log_with_gap("absent");
   for (const auto& [file, id] : std::vector<std::pair<std::string, std::string>>{

@@ -35,7 +35,8 @@ struct TimedSignals {
 /// which all files have samples. Columns of one name, and those whose name says nothing ("value"),
 /// get that of their file in front, "torque.value". What was done is among the assumptions.
 ///
-/// Samples that lie within 0.05 periods of each other are at the same time. With another grid than
+/// Samples that lie within 0.05 periods of each other are at the same time. A file of the same
+/// period that lacks some of the samples has NaN there. With another grid than
 /// `same`, the signals of the other files are taken at its times: of one that `is_held` by its mean
 /// over each step, of any other by the cubic through the four nearest samples. NaN is no sample.
 /// Where samples are missing, a step of more than 1.5 periods of the signal, the table has NaN.

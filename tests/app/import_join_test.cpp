@@ -134,6 +134,27 @@ TEST_F(ImportJoin, ARunThatBeginsAfterItsTorqueIsFree) {
   EXPECT_EQ(imported({"a.csv", "b.csv", "--join"}).run.initial, InitialState::rest);
 }
 
+TEST_F(ImportJoin, RowsThatOneFileLacksAreFilledOrSplitTheRun) {
+  std::string torque = "time [s],torque [N m]\n";
+  std::string angle = "time [s],hub_angle [rad]\n";
+  std::string angle_with_gap = angle;
+  for (int ms = 0; ms < 600; ms += 2) {
+    torque += fmt::format("{},{}\n", since_start(ms), ms);
+    const std::string row = fmt::format("{},{}\n", since_start(ms), ms);
+    if (ms != 300) angle += row;
+    if (ms < 300 || ms >= 320) angle_with_gap += row;
+  }
+  write("a.csv", torque);
+  write("b.csv", angle);
+  const auto filled = record({"a.csv", "b.csv", "--join"});
+  ASSERT_EQ(filled.time_s.size(), 300U);
+  EXPECT_NEAR(filled.channels.at(0).values[150], 300.0, 1e-6);
+  EXPECT_EQ(record({"b.csv", "a.csv", "--join"}).time_s.size(), 300U);
+  write("b.csv", angle_with_gap);
+  EXPECT_THAT(import({"a.csv", "b.csv", "--join"}).output,
+              AllOf(HasSubstr("run a-1"), HasSubstr("run a-2")));
+}
+
 /// A LabVIEW file whose head tells the clock, and X0 in s.
 std::string labview(const std::string& channel, const std::string& clock, double x0_s,
                     int first_ms) {

@@ -155,6 +155,30 @@ TEST_F(ImportJoin, RowsThatOneFileLacksAreFilledOrSplitTheRun) {
               AllOf(HasSubstr("run a-1"), HasSubstr("run a-2")));
 }
 
+TEST_F(ImportJoin, FilesOfOneSignalHaveTheTimesOfTheirHeads) {
+  const auto write_rows = [&](const std::string& file, const std::string& head,
+                              const std::string& end, int first_ms) {
+    std::string text = head;
+    for (int ms = 0; ms < 600; ms += 2) text += fmt::format("{}{}\n", ms + first_ms, end);
+    write(file, text);
+  };
+  const std::vector<std::string> files = {"a.csv", "b.csv"};
+  write_rows("a.csv", "Sample Interval,0.002,s\ntorque [N m]\n", "", 0);
+  write_rows("b.csv", "Sample Interval,0.002,s\nStart,0.1,s\nhub_angle [rad]\n", "", 100);
+  EXPECT_EQ(matching_samples(files), kCommon);
+  const std::string keys =
+      "\"Header Size\",16\n\"TraceName\",\"{}\"\n\"BlockSize\",300\n\"VUnit\",\"{}\"\n"
+      "\"HResolution\",2.0E-03\n\"HOffset\",{}\n\"HUnit\",\"s\"\n\n";
+  write_rows("a.csv", fmt::format(fmt::runtime(keys), "torque", "Nm", -0.3), ",", 0);
+  write_rows("b.csv", fmt::format(fmt::runtime(keys), "hub_angle", "rad", -0.2), ",", 100);
+  EXPECT_EQ(matching_samples(files), kCommon);
+  write_rows("a.csv", "CH1V,t0 = -0.3, tInc = 2.0e-03\n", ",,", 0);
+  write_rows("b.csv", "CH1V,t0 = -0.2, tInc = 2.0e-03\n", ",,", 100);
+  EXPECT_EQ(matching_samples({"a.csv", "b.csv", "--column", "torque=a.CH1V:V:1", "--column",
+                              "hub_angle=b.CH1V:V:1"}),
+            kCommon);
+}
+
 /// A LabVIEW file whose head tells the clock, and X0 in s.
 std::string labview(const std::string& channel, const std::string& clock, double x0_s,
                     int first_ms) {

@@ -65,8 +65,8 @@ class CommonClock {
       if (file.start) continue;
       if (!are_dated || file.times_s.front() < kFirstEpoch_s) {
         throw InputError(fmt::format(
-            "--join: {} has time stamps and {} seconds from {:.10g} s, of which the moment of 0 s "
-            "is not told; write both with time stamps, or both in seconds of one clock",
+            "--join: {} has time stamps and {} seconds from {:.10g} s, of which no "
+            "time of day is known; write both with time stamps, or both in seconds of one clock",
             files_[base_].file, file.file, file.times_s.front()));
       }
       file.start = ClockStart{0, true};

@@ -111,10 +111,9 @@ TEST_F(ImportJoin, StampsWithoutACommonTimeAreRefused) {
               AllOf(HasSubstr("no time in which all files have samples"),
                     HasSubstr("b.csv from 86400.1 s")));
   write_pair(iso, since_start);
-  expect_refused(
-      import({"a.csv", "b.csv", "--join"}),
-      "--join: a.csv has time stamps and b.csv seconds from 0.1 s, of which the moment "
-      "of 0 s is not told; write both with time stamps, or both in seconds of one clock");
+  expect_refused(import({"a.csv", "b.csv", "--join"}),
+                 "--join: a.csv has time stamps and b.csv seconds from 0.1 s, of which no time "
+                 "of day is known; write both with time stamps, or both in seconds of one clock");
 }
 
 TEST_F(ImportJoin, ARunThatBeginsAfterItsTorqueIsFree) {

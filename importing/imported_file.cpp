@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/range.hpp"
 #include "importing/imported_responses.hpp"
+#include "importing/running_times.hpp"
 #include "measured/checks/time_unit_check.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/complete_rows.hpp"
@@ -339,6 +340,11 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     const auto& [sensor, mapping] = *imported.reference;
     record.reference = reference_of(file.table, mapping, sensor, record.time_s, name);
     warn_of_unrecorded(*choice.controller, imported);
+  }
+  if (!choice.period_s) {
+    require_running(record.time_s, file.table);
+    std::ranges::move(second_clocks(file.table, record.time_s, imported.not_used),
+                      std::back_inserter(imported.warnings));
   }
   imported.data = std::move(record);
   doubt_time(choice, imported);

@@ -31,7 +31,7 @@ struct ImportedFile {
   std::vector<std::size_t> rows;             ///< of its samples in the file, from 0; empty: all
   std::optional<double> start_s;             ///< of the file, where its first row is incomplete
   std::optional<double> period_s;            ///< of the file's grid, where rows are left out of it
-  bool is_driven_before = false;             ///< a torque acts in incomplete rows before the first
+  bool is_driven_before = false;             ///< a torque acts in the file before the first sample
   measured::ColumnMappings columns;          ///< that were used
   std::optional<ReferenceColumn> reference;  ///< of a time record in closed loop
   std::vector<std::string> assumptions;      ///< a sentence each

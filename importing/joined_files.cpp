@@ -3,7 +3,9 @@
 #include "arm/input_error.hpp"
 #include "arm/read_word.hpp"
 #include "measured/files/column_lookup.hpp"
+#include "measured/files/common_clock.hpp"
 #include "measured/files/missing_signs.hpp"
+#include "measured/files/time_record.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -108,7 +110,8 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
       if (!note.empty()) assumptions.push_back(note);
     }
     leave_out_untimed(columns, place, name, assumptions);
-    TimedSignals signals{name, std::move(columns[place].values), {}};
+    TimedSignals signals{
+        name, std::move(columns[place].values), {}, columns[place].start, columns[place].is_stamp};
     const auto unit = measured::unit_of("time", mapping.unit).value_or(measured::Unit{});
     for (auto& time : signals.times_s) time = unit.to_si(time * mapping.scale);
     require_increasing(signals.times_s);
@@ -152,6 +155,27 @@ std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
   return held;
 }
 
+/// Whether a column of the torque is not 0 in front of the time that all files share.
+bool torque_acts_before(const std::vector<TimedSignals>& files,
+                        const std::set<std::string>& torque) {
+  double from_s = -HUGE_VAL;
+  for (const auto& file : files) from_s = std::max(from_s, file.times_s.front());
+  for (const auto& file : files) {
+    const double step_s = file.times_s[1] - file.times_s[0];
+    const auto common =
+        std::ranges::lower_bound(file.times_s, from_s - measured::kMostJitter_periods * step_s);
+    for (const auto& column : file.columns) {
+      if (!torque.contains(column.name)) continue;
+      const auto& values = column.values;
+      const bool acts =
+          std::any_of(values.begin(), values.begin() + (common - file.times_s.begin()),
+                      [](double value) { return !std::isnan(value) && value != 0.0; });
+      if (acts) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 ImportedFile import_joined(const std::vector<std::string>& files, const FileChoice& choice,
@@ -172,22 +196,27 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
     names.push_back(file);
     signals.push_back(timed_signals(std::move(read), choice, assumptions));
   }
+  std::ranges::move(measured::put_on_one_clock(signals), std::back_inserter(assumptions));
   measured::name_joined_columns(signals);
 
   FileChoice of_joined = choice;
   std::erase_if(of_joined.columns.typed, is_of_time);
   of_joined.columns.time_unit.clear();
-  const auto held = hold == measured::TorqueHold::zero ? torque_columns(signals, of_joined.columns)
-                                                       : std::set<std::string>();
+  const auto torque = torque_columns(signals, of_joined.columns);
+  const bool is_driven = torque_acts_before(signals, torque);
   ReadFile joined{fmt::format("{}", fmt::join(names, " + ")),
                   fmt::format("{}, joined", fmt::join(formats, ", ")),
                   {}};
-  joined.contents.table = measured::joined_table(
-      std::move(signals), grid, [&](const std::string& column) { return held.contains(column); });
+  joined.contents.table =
+      measured::joined_table(std::move(signals), grid, [&](const std::string& column) {
+        return hold == measured::TorqueHold::zero && torque.contains(column);
+      });
   auto& said = joined.contents.table.assumptions;
   said.insert(said.begin(), std::make_move_iterator(assumptions.begin()),
               std::make_move_iterator(assumptions.end()));
-  return import_file(std::move(joined), of_joined);
+  ImportedFile imported = import_file(std::move(joined), of_joined);
+  imported.is_driven_before |= is_driven;
+  return imported;
 }
 
 }  // namespace flexarm::importing

@@ -105,8 +105,10 @@ void ColumnBuilder::convert_stamps() {
       continue;
     }
     const bool is_completed = !has_date && dates != nullptr;
-    column.column.values = is_completed ? seconds_since_first(column.stamps, dates->stamps)
-                                        : seconds_since_first(column.stamps);
+    StampedTimes times = is_completed ? stamped_times(column.stamps, dates->stamps)
+                                      : stamped_times(column.stamps);
+    column.column.values = std::move(times.seconds);
+    column.column.start = times.start;
     column.column.unit = "s";
     column.column.is_stamp = true;
     assumptions_.push_back(fmt::format("{} is the time since {}{}", arm::shown(column.column.name),

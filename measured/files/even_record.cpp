@@ -32,6 +32,12 @@ constexpr double kMostRounding = 1.1;
 constexpr double kCoarsestDigit_periods = 0.75;
 /// unless so many times repeat.
 constexpr double kFewestRepeats = 0.1;
+/// Where so many times repeat and are no rounded ones, whole signals would be left out.
+constexpr double kMostRepeats = 0.4;
+/// A last digit above so many periods is coarse,
+constexpr double kCoarseDigit_periods = 2.0;
+/// and must still tell the period within this, relative to it.
+constexpr double kMostUncertainty = 1e-3;
 /// Times of a grid that lie closer, in periods, differ by rounding.
 constexpr double kSameTime_periods = 1e-6;
 
@@ -55,6 +61,86 @@ std::optional<double> last_digit_s(std::span<const double> times_s) {
     if (fits) return 1.0 / per_second;
   }
   return std::nullopt;
+}
+
+/// Sampling periods that rounded times leave open.
+struct PeriodRange {
+  double least_s = 0.0;
+  double most_s = 0.0;
+  /// Half the range, relative to its middle.
+  double uncertainty() const { return (most_s - least_s) / (most_s + least_s); }
+};
+
+/// The periods T of which all t_k - k T lie within a digit of each other, or, if there is none,
+/// within `kMostRounding` digits, as with `period_s`. The spread is convex in T.
+PeriodRange periods_within(std::span<const double> times_s, double period_s, double digit_s) {
+  const auto spread_s = [&](double at_s) {
+    double least_s = HUGE_VAL;
+    double most_s = -HUGE_VAL;
+    for (std::size_t k = 0; k < times_s.size(); ++k) {
+      const double off_s = times_s[k] - times_s[0] - at_s * static_cast<double>(k);
+      least_s = std::min(least_s, off_s);
+      most_s = std::max(most_s, off_s);
+    }
+    return most_s - least_s;
+  };
+  constexpr int kHalvings = 40;
+  const double reach_s = 3.0 * digit_s / static_cast<double>(times_s.size() - 1);
+  const PeriodRange all{period_s - reach_s, period_s + reach_s};
+  double low_s = all.least_s;
+  double high_s = all.most_s;
+  for (int i = 0; i < 2 * kHalvings; ++i) {
+    const double third_s = (high_s - low_s) / 3.0;
+    const bool is_lower = spread_s(low_s + third_s) < spread_s(high_s - third_s);
+    (is_lower ? high_s : low_s) += is_lower ? -third_s : third_s;
+  }
+  const double best_s = 0.5 * (low_s + high_s);
+  const double exact_s = digit_s * (1.0 + kDigitError);
+  const double limit_s = spread_s(best_s) <= exact_s ? exact_s : kMostRounding * digit_s;
+  const auto end_of = [&](double beyond_s) {
+    double within_s = best_s;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle_s = 0.5 * (within_s + beyond_s);
+      (spread_s(middle_s) <= limit_s ? within_s : beyond_s) = middle_s;
+    }
+    return within_s;
+  };
+  return {end_of(all.least_s), end_of(all.most_s)};
+}
+
+/// Samples of equal times.
+struct EqualTimes {
+  std::size_t most = 1;         ///< at one time
+  double share = 0.0;           ///< of the times, but the first and last, that have as many
+  bool differ = false;          ///< in torque, reference or a sensor, at one time
+  double largest_step_s = 0.0;  ///< between the times
+};
+
+EqualTimes equal_times(const TimeRecord& record) {
+  const auto& times_s = record.time_s;
+  std::vector<std::size_t> counts = {1};
+  EqualTimes equal;
+  for (std::size_t k = 1; k < times_s.size(); ++k) {
+    if (times_s[k] != times_s[k - 1]) {
+      equal.largest_step_s = std::max(equal.largest_step_s, times_s[k] - times_s[k - 1]);
+      counts.push_back(1);
+      continue;
+    }
+    ++counts.back();
+    const auto changes = [&](const std::vector<double>& values) {
+      return !values.empty() && values[k] != values[k - 1];
+    };
+    equal.differ |= changes(record.torque_N_m) || changes(record.reference.values) ||
+                    std::ranges::any_of(record.channels, [&](const auto& channel) {
+                      return changes(channel.values);
+                    });
+  }
+  equal.most = std::ranges::max(counts);
+  if (counts.size() > 2) {
+    const auto as_many = std::count(counts.begin() + 1, counts.end() - 1, equal.most);
+    equal.share = static_cast<double>(as_many) / static_cast<double>(counts.size() - 2);
+  }
+  return equal;
 }
 
 /// Steps of one period each.
@@ -216,21 +302,55 @@ class EvenMaker {
     const ClockSteps steps = even_steps(times_s.size());
     const Jitter jitter = jitter_of(times_s, steps, 0, times_s.size(), kMostJitter_periods);
     const double repeats = static_cast<double>(repeats_in(times_s));
+    const EqualTimes equal = equal_times(part);
+    const bool do_all_repeat = equal.most > 1 && equal.share == 1.0;
+    constexpr double kOneDigit = 1.5;  // a period of half a digit makes no step of two
+    constexpr double kNearlyAll = 0.9;
+    const bool is_of_several =
+        equal.most > 1 && equal.share >= kNearlyAll && equal.largest_step_s > kOneDigit * *digit_s;
+    const bool is_copied = do_all_repeat && !equal.differ;
     const bool is_rounding = jitter.range_periods * jitter.period_s <= kMostRounding * *digit_s &&
+                             !is_of_several && !is_copied &&
                              (*digit_s <= kCoarsestDigit_periods * jitter.period_s ||
                               repeats >= kFewestRepeats * static_cast<double>(times_s.size()));
     if (!is_rounding) return false;
-    note(fmt::format("times are rounded to {} s; replaced by an even grid of period {:.6g} s",
-                     *digit_s, jitter.period_s));
+    if (do_all_repeat) refuse_equal_times(equal, *digit_s);
+    const PeriodRange range = periods_within(times_s, jitter.period_s, *digit_s);
+    const double period_s = std::clamp(jitter.period_s, range.least_s, range.most_s);
+    if (*digit_s > kCoarseDigit_periods * period_s && range.uncertainty() > kMostUncertainty) {
+      throw arm::InputError(fmt::format(
+          "time: times in steps of {} s leave any sampling period from {:.4g} s to {:.4g} s open; "
+          "state it with --period, or write the times with more digits",
+          *digit_s, std::max(0.0, range.least_s), range.most_s));
+    }
+    note(fmt::format(
+        "times are rounded to {} s; replaced by an even grid of period {:.6g} s, which they tell "
+        "within {:.2g} s",
+        *digit_s, period_s, 0.5 * (range.most_s - range.least_s)));
     TimeRecord even = part;
-    even.time_s = fitted_times(times_s, steps, jitter.period_s);
+    even.time_s = fitted_times(times_s, steps, period_s);
     out_.stretches.push_back(std::move(even));
     return true;
+  }
+
+  [[noreturn]] static void refuse_equal_times(const EqualTimes& equal,
+                                              std::optional<double> digit_s) {
+    throw arm::InputError(fmt::format(
+        "time: {} {} rows, with other values in each; if the rows are of several signals or "
+        "devices, write each to columns or a file of its own; if the times are rounded{}, state "
+        "the sampling period with --period",
+        equal.share == 1.0 ? "each time stands in" : "one time stands in up to", equal.most,
+        digit_s ? fmt::format(" to {} s", *digit_s) : ""));
   }
 
   void leave_out_repeats(TimeRecord& part) {
     const std::size_t repeats = repeats_in(part.time_s);
     if (repeats == 0) return;
+    const EqualTimes equal = equal_times(part);
+    const bool are_many =
+        static_cast<double>(repeats) >= kMostRepeats * static_cast<double>(part.time_s.size());
+    const bool is_running = part.time_s.back() > part.time_s.front();
+    if (are_many && equal.differ && is_running) refuse_equal_times(equal, std::nullopt);
     note(fmt::format("{} sample{} with the time of the sample before left out", repeats,
                      repeats == 1 ? "" : "s"));
     const std::vector<double> times_s = part.time_s;

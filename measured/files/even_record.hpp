@@ -44,7 +44,7 @@ struct EvenRecords {
 ///
 /// - Where times go back the record is split; of samples with the same time the first is kept.
 /// - Times that lie on an even grid up to their own last digit are replaced by the grid: they are
-///   rounded.
+///   rounded. A digit above two periods must leave the period open by 0.1 % or less.
 /// - Where the sampling period changes (`period_changes`) the record is split.
 /// - A gap (`clock_steps`) splits the record, or is filled.
 /// - A stretch that is uneven by more than `kMostJitter_periods` is resampled to its median period:
@@ -56,7 +56,9 @@ struct EvenRecords {
 ///
 /// With `EvenOptions::period_s` there are only gaps, the steps above that period.
 ///
-/// `record` has two samples or more. Throws InputError where no stretch is long enough.
+/// `record` has two samples or more. Throws InputError where no stretch is long enough,
+/// where rounded times leave the period open, and where times repeat whose rows differ: in four
+/// tenths of the samples or more of times that are not rounded, or as often at every time.
 EvenRecords make_even(const TimeRecord& record, const EvenOptions& options = {});
 
 }  // namespace flexarm::measured

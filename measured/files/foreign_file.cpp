@@ -10,6 +10,7 @@
 #include "measured/files/record_constants.hpp"
 #include "measured/files/response_columns.hpp"
 #include "measured/files/response_unit.hpp"
+#include "measured/files/split_seconds.hpp"
 #include "measured/files/universal_file.hpp"
 
 #include <fmt/format.h>
@@ -281,6 +282,7 @@ ForeignFile foreign_contents(const std::string& bytes, const std::string& name,
   } else {
     file.table = parse_foreign_table(bytes, name);
   }
+  complete_whole_seconds(file.table);
   try {
     file.table = without_long_form(std::move(file.table));
   } catch (const InputError& error) {

@@ -11,6 +11,7 @@
 #include "measured/files/labview_text.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/sampling_settings.hpp"
+#include "measured/files/single_signal.hpp"
 #include "measured/files/table_reading.hpp"
 #include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
@@ -64,6 +65,7 @@ class TableReader {
 
   ForeignTable read() {
     if (text_.empty()) throw InputError("empty");
+    if (auto single = single_signal_table(sample_, text_)) return *std::move(single);
     counted_ = counted_header(sample_, splitter_, decimal());
     find_first_row();
     require_columns();

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "measured/files/time_stamp.hpp"
+
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +23,9 @@ struct ForeignColumn {
   std::string path = {};                ///< where it stands in a file of structures; empty: by name
   std::string stray = {};     ///< the only text of a column that has numbers besides; empty: none
   std::size_t stray_row = 0;  ///< where it stands first
+  /// Holds the moment at which a time is 0, of time stamps or of the head of a file; empty: not
+  /// told.
+  std::optional<ClockStart> start = std::nullopt;
 
   bool is_text() const { return !texts.empty(); }
   /// Whether it has no number at all.
@@ -57,8 +63,9 @@ int line_of(const ForeignTable& table, std::size_t row);
 /// measurement file is read as measured/files/labview_text.hpp says.
 ///
 /// Throws InputError `FILE:LINE: what is wrong; what is allowed` for a file that is not text, has
-/// no two rows of two numbers or more, rows of unlike length, a cell that is no number in a column
-/// of numbers, and thousands separators. A last line that is cut off is left out, and said.
+/// no two rows of two numbers or more (one suffices where a head tells the period), rows of unlike
+/// length, a cell that is no number in a column of numbers, and thousands separators. A last line
+/// that is cut off is left out, and said.
 ForeignTable read_foreign_table(const std::filesystem::path& path);
 
 /// The same for the bytes of a file; `file_name` stands in the errors.

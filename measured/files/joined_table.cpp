@@ -28,6 +28,9 @@ using arm::InputError;
 /// Where files have less than this of the shortest of them in common, it is said as a doubt.
 constexpr double kLittleInCommon = 0.5;
 
+/// Samples of one grid that the files do not share are as far apart, or farther.
+constexpr double kApart_periods = 0.75;
+
 bool says_nothing(const std::string& name) {
   constexpr std::array<std::string_view, 5> kWords = {"value", "values", "data", "signal",
                                                       "column"};
@@ -72,6 +75,11 @@ class Joiner {
 
   ForeignTable join(JoinGrid grid, const std::function<bool(const std::string&)>& is_held) {
     find_common_time();
+    if (const auto times_s = grid == JoinGrid::same ? shared_times() : std::nullopt) {
+      table_.columns.push_back({"time [s]", "s", *times_s});
+      for (std::size_t i = 0; i < files_.size(); ++i) place_file(i, *times_s);
+      return std::move(table_);
+    }
     const std::size_t base = base_of(grid);
     const std::vector<double> grid_s = cut(files_[base].times_s, parts_[base]);
     table_.columns.push_back({"time [s]", "s", grid_s});
@@ -122,6 +130,72 @@ class Joiner {
     }
   }
 
+  double same_time_s(std::size_t i, std::size_t base) const {
+    return kMostJitter_periods * std::min(periods_s_[i], periods_s_[base]);
+  }
+
+  /// The times at which any file has a sample; empty where those of one lie between those of
+  /// another, or come at another rate.
+  std::optional<std::vector<double>> shared_times() const {
+    std::vector<double> all_s = cut(files_[0].times_s, parts_[0]);
+    bool are_same = true;
+    for (std::size_t i = 1; i < files_.size(); ++i) {
+      const std::vector<double> own_s = cut(files_[i].times_s, parts_[i]);
+      std::vector<double> merged_s;
+      std::size_t at = 0;
+      for (const double time_s : own_s) {
+        while (at < all_s.size() && all_s[at] < time_s - same_time_s(i, 0)) {
+          merged_s.push_back(all_s[at++]);
+        }
+        const bool is_there = at < all_s.size() && all_s[at] <= time_s + same_time_s(i, 0);
+        if (is_there) {
+          merged_s.push_back(all_s[at++]);
+          continue;
+        }
+        const double least_s = kApart_periods * periods_s_[0];
+        const bool is_apart = (merged_s.empty() || time_s - merged_s.back() >= least_s) &&
+                              (at == all_s.size() || all_s[at] - time_s >= least_s);
+        if (!is_apart) return std::nullopt;
+        merged_s.push_back(time_s);
+      }
+      merged_s.insert(merged_s.end(), all_s.begin() + static_cast<std::ptrdiff_t>(at), all_s.end());
+      const bool is_alike = !is_other_rate(i);
+      are_same &= merged_s.size() == all_s.size() && own_s.size() == all_s.size();
+      if (!are_same && !is_alike) return std::nullopt;
+      all_s = std::move(merged_s);
+    }
+    return all_s;
+  }
+
+  /// Adds the signals of a file at the times of all, NaN where it has no sample.
+  void place_file(std::size_t i, const std::vector<double>& times_s) {
+    TimedSignals& file = files_[i];
+    std::vector<std::size_t> rows(times_s.size(), file.times_s.size());
+    std::size_t at = parts_[i].first;
+    for (std::size_t k = 0; k < times_s.size() && at < parts_[i].last; ++k) {
+      if (std::abs(file.times_s[at] - times_s[k]) <= same_time_s(i, 0)) rows[k] = at++;
+    }
+    const auto missing = std::ranges::count(rows, file.times_s.size());
+    if (missing > 0) {
+      assume(fmt::format("{} has no sample at {} of {} times of the other files", file.file,
+                         missing, times_s.size()));
+    }
+    for (auto& column : file.columns) {
+      std::vector<double> placed;
+      for (const std::size_t row : rows) {
+        placed.push_back(row < column.values.size() ? column.values[row] : kUnknown);
+      }
+      column.values = std::move(placed);
+      table_.columns.push_back(std::move(column));
+    }
+  }
+
+  bool is_other_rate(std::size_t i) const {
+    constexpr double kAlike = 1e-3;
+    return std::abs(periods_s_[i] - periods_s_[0]) >
+           kAlike * std::min(periods_s_[i], periods_s_[0]);
+  }
+
   std::size_t base_of(JoinGrid grid) const {
     if (grid != JoinGrid::coarsest) return 0;
     return static_cast<std::size_t>(std::ranges::max_element(periods_s_) - periods_s_.begin());
@@ -131,8 +205,7 @@ class Joiner {
                 const std::function<bool(const std::string&)>& is_held) {
     TimedSignals& file = files_[i];
     const std::vector<double> own_s = cut(file.times_s, parts_[i]);
-    const double tolerance_s = kMostJitter_periods * std::min(periods_s_[i], periods_s_[base]);
-    const bool are_same = distance_s(own_s, grid_s) <= tolerance_s;
+    const bool are_same = distance_s(own_s, grid_s) <= same_time_s(i, base);
     if (!are_same && grid == JoinGrid::same) refuse_other_times(i);
     if (!are_same) note_resampled(i, base);
     for (auto& column : file.columns) {
@@ -184,17 +257,14 @@ class Joiner {
   }
 
   [[noreturn]] void refuse_other_times(std::size_t i) const {
-    constexpr double kAlike = 1e-3;
-    const bool is_other_rate =
-        std::abs(periods_s_[i] - periods_s_[0]) > kAlike * std::min(periods_s_[i], periods_s_[0]);
     throw InputError(fmt::format(
         "--join: {} has samples at other times than {} ({}); say onto which times they are "
         "resampled: --join-grid first or --join-grid coarsest",
         files_[i].file, files_[0].file,
-        is_other_rate
+        is_other_rate(i)
             ? fmt::format("one every {:.6g} s, and every {:.6g} s", periods_s_[i], periods_s_[0])
-            : fmt::format("the period of both is {:.6g} s, but the samples lie between each other, "
-                          "or some are missing",
+            : fmt::format("the period of both is {:.6g} s, but the samples lie between each "
+                          "other",
                           periods_s_[0])));
   }
 

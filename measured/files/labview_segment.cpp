@@ -17,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace flexarm::measured {
@@ -169,7 +170,7 @@ class SegmentJoiner {
     if (!is_begun_) first_start_ = start;
     if (!is_begun_ || !start || !first_start_ || x.empty()) return 0.0;
     const std::vector<std::optional<TimeStamp>> stamps = {first_start_, start};
-    const double since = seconds_since_first(stamps).back() / x_unit_s_;
+    const double since = stamped_times(stamps).seconds.back() / x_unit_s_;
     const bool is_in_x = std::abs(x.front() - first_x_ - since) < period_;
     const double begin = x.front() + since;
     if (std::isnan(since) || is_in_x || begin <= last_) return 0.0;
@@ -197,6 +198,9 @@ class SegmentJoiner {
       add_merged(segment, places, offset);
     }
     if (!is_begun_) first_x_ = shared.empty() ? 0.0 : shared.front();
+    if (!is_begun_ && first_start_ && first_start_->clock_ns) {
+      table_.columns[0].start = stamped_times(std::span(&first_start_, 1)).start;
+    }
     is_begun_ = true;
     for (const double time : table_.columns[0].values) {
       if (is_number(time)) last_ = time;

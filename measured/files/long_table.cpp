@@ -98,6 +98,7 @@ ForeignTable without_long_form(ForeignTable table) {
   }
   ForeignColumn time{times.name, times.unit, {}};
   time.is_stamp = times.is_stamp;
+  time.start = times.start;
   for (auto& [at, row] : row_at) {
     row = time.values.size();
     time.values.push_back(at);

@@ -20,7 +20,6 @@ namespace {
 using std::string_view;
 using Days = std::optional<std::int64_t>;
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kMinute_ns = 60 * kSecond_ns;
 constexpr std::int64_t kHour_ns = 60 * kMinute_ns;
 constexpr std::int64_t kDay_ns = 24 * kHour_ns;
@@ -337,8 +336,8 @@ std::optional<TimeStamp> parse_time_stamp(string_view cell) {
   return stamp;
 }
 
-std::vector<double> seconds_since_first(std::span<const std::optional<TimeStamp>> stamps,
-                                        std::span<const std::optional<TimeStamp>> dates) {
+StampedTimes stamped_times(std::span<const std::optional<TimeStamp>> stamps,
+                           std::span<const std::optional<TimeStamp>> dates) {
   auto times_ns =
       nanoseconds_of(stamps, dates, [](const TimeStamp& date) { return date.day_first; });
   auto month_first =
@@ -347,23 +346,25 @@ std::vector<double> seconds_since_first(std::span<const std::optional<TimeStamp>
   const auto first =
       std::ranges::find_if(stamps, [](const auto& stamp) { return stamp.has_value(); });
   const bool has_dates = !dates.empty() || (first != stamps.end() && (*first)->has_date());
-  const std::int64_t turn_ns = first != stamps.end() && (*first)->has_hours ? kDay_ns : kHour_ns;
-  std::vector<double> seconds;
+  const bool has_hours = first != stamps.end() && (*first)->has_hours;
+  const std::int64_t turn_ns = has_hours ? kDay_ns : kHour_ns;
+  StampedTimes times;
   std::optional<std::int64_t> start_ns;
   std::int64_t before_ns = 0;
   std::int64_t turns_ns = 0;
   for (const auto& time_ns : times_ns) {
     if (!time_ns) {
-      seconds.push_back(std::numeric_limits<double>::quiet_NaN());
+      times.seconds.push_back(std::numeric_limits<double>::quiet_NaN());
       continue;
     }
     if (!start_ns) start_ns = before_ns = *time_ns;
     if (!has_dates && *time_ns < before_ns - turn_ns / 2) turns_ns += turn_ns;
     before_ns = *time_ns;
-    seconds.push_back(static_cast<double>(*time_ns + turns_ns - *start_ns) /
-                      static_cast<double>(kSecond_ns));
+    times.seconds.push_back(static_cast<double>(*time_ns + turns_ns - *start_ns) /
+                            static_cast<double>(kSecond_ns));
   }
-  return seconds;
+  times.start = {start_ns.value_or(0), has_dates, has_hours};
+  return times;
 }
 
 }  // namespace flexarm::measured

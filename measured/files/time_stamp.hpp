@@ -8,6 +8,8 @@
 
 namespace flexarm::measured {
 
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
 /// Date and time of day in a cell, or one of them.
 struct TimeStamp {
   /// Days since 1970-01-01, of 1/3/2024 with the day first and with the month first; the same where
@@ -29,12 +31,25 @@ struct TimeStamp {
 /// any other text, a number among them.
 std::optional<TimeStamp> parse_time_stamp(std::string_view cell);
 
-/// Seconds since the first stamp, NaN where there is none. Of dates that may have the day or the
+/// Moment of a clock.
+struct ClockStart {
+  std::int64_t ns = 0;    ///< since 1970-01-01, or without a date as `TimeStamp::clock_ns`
+  bool has_date = false;
+  bool has_hours = true;  ///< as of `TimeStamp`
+};
+
+/// Times of stamps, and the moment that they count from.
+struct StampedTimes {
+  std::vector<double> seconds;  ///< since the first stamp, NaN where there is none
+  ClockStart start;             ///< the first stamp
+};
+
+/// Times since the first stamp. Of dates that may have the day or the
 /// month first, the reading with the shorter span is taken. A clock without dates that goes back by
 /// more than half a day went past midnight (of minutes alone: by half an hour, past the hour).
 ///
 /// `dates` complete stamps without one; they are empty, or as many.
-std::vector<double> seconds_since_first(std::span<const std::optional<TimeStamp>> stamps,
-                                        std::span<const std::optional<TimeStamp>> dates = {});
+StampedTimes stamped_times(std::span<const std::optional<TimeStamp>> stamps,
+                           std::span<const std::optional<TimeStamp>> dates = {});
 
 }  // namespace flexarm::measured

@@ -272,6 +272,61 @@ TEST_F(ImportKinds, ClockTimesPastMidnightAreEven) {
   EXPECT_EQ(clock.time_s[99], 0.198);
 }
 
+TEST_F(ImportKinds, MillisecondsOfTheirOwnColumnCompleteWholeSeconds) {
+  const auto log = [](const std::string& name, int first_s) {
+    std::string text = name + ",torque [N m],hub_angle [rad]\n";
+    for (int k = 0; k < 300; ++k) {
+      const int ms = 900 + 2 * k;
+      const std::string seconds = first_s > 0 ? fmt::format("{}", first_s + ms / 1000)
+                                              : fmt::format("23:59:{:02}", 50 + ms / 1000);
+      text += fmt::format("{},{},{},{}\n", seconds, ms % 1000, k, -k);
+    }
+    return text;
+  };
+  for (const auto& [name, first_s] : std::vector<std::pair<std::string, int>>{
+           {"Time,Millisecond", 0}, {"Zeit,Millisekunden", 0}, {"Time (s),ms", 1711846799}}) {
+    write("split.csv", log(name, first_s));
+    const auto made = record({"split.csv"});
+    ASSERT_EQ(made.time_s.size(), 300U) << name;
+    EXPECT_NEAR((made.time_s[299] - made.time_s[0]) / 299.0, 0.002, 1e-9) << name;
+    EXPECT_THAT(output_, HasSubstr("is of whole seconds, completed by column")) << name;
+  }
+  // Without them the period is open.
+  write("split.csv", log("Time,counts", 0));
+  EXPECT_THAT(import({"split.csv"}).errors, HasSubstr("--period"));
+  EXPECT_EQ(record({"split.csv", "--period", "0.002"}).time_s.size(), 300U);
+  // Counts on while the seconds change.
+  std::string text = "Time,ms,torque [N m],hub_angle [rad]\n";
+  for (int k = 0; k < 300; ++k) {
+    text += fmt::format("12:00:{:02},{},{},{}\n", (900 + 2 * k) / 1000, 2 * k, k, -k);
+  }
+  write("split.csv", text);
+  EXPECT_THAT(import({"split.csv"}).errors, HasSubstr("--period"));
+}
+
+TEST_F(ImportKinds, TimesThatDoNotRunAreNamed) {
+  std::string falling = "time [s],torque [N m],hub_angle [rad]\n";
+  std::string equal = falling;
+  std::string second = "time [s],torque [N m],time2 [s],hub_angle [rad]\n";
+  for (int k = 0; k < 20; ++k) {
+    falling += fmt::format("{:.3f},{},{}\n", 0.002 * (20 - k), k, -k);
+    equal += fmt::format("1.709e+09,{},{}\n", k, -k);
+    second += fmt::format("{:.3f},{},{:.3f},{}\n", 0.002 * k, k, 0.002 * k + 0.01, -k);
+  }
+  write("log.csv", falling);
+  expect_refused(import({"log.csv"}),
+                 "log.csv: time falls from 0.04 s to 0.038 s in line 3, and in 19 of 20 rows; "
+                 "write the rows in the order of their times");
+  write("log.csv", equal);
+  expect_refused(import({"log.csv"}),
+                 "log.csv: time = 1709000000 s in all 20 rows; write it with more digits, take "
+                 "another column with --column time=NAME, or state the sampling period with "
+                 "--period");
+  write("log.csv", second);
+  EXPECT_THAT(import({"log.csv"}).output,
+              HasSubstr("time2 [s] is a second time, up to 0.01 s off"));
+}
+
 TEST_F(ImportKinds, NamesOfFilesMakeShortIds) {
   const std::string log = log_with_gap("absent");
   for (const auto& [file, id] : std::vector<std::pair<std::string, std::string>>{

@@ -175,6 +175,58 @@ TEST(EvenRecord, RoundedTimesAreReplacedByTheirGrid) {
   EXPECT_NEAR(sampling_period_s(finer.stretches[0]), 0.0006, 1e-5);
 }
 
+std::string refusal(const TimeRecord& record) {
+  try {
+    make_even(record);
+  } catch (const arm::InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(EvenRecord, TimesTooCoarseForAPeriodAreRefused) {
+  const auto in_seconds = [](int samples, double period_s) {
+    return record_at(
+        times_of(samples, [&](int k) { return std::floor(0.9 + period_s * k + 1e-9); }));
+  };
+  for (const double period_s : {0.01, 0.002, 0.0201}) {
+    EXPECT_THAT(refusal(in_seconds(300, period_s)), HasSubstr("--period")) << period_s;
+  }
+  EXPECT_THAT(refusal(in_seconds(300, 0.0201)),
+              HasSubstr("time: times in steps of 1 s leave any sampling period from"));
+  const EvenRecords even = make_even(in_seconds(20000, 0.0201));
+  ASSERT_EQ(even.stretches.size(), 1U);
+  EXPECT_NEAR(sampling_period_s(even.stretches[0]), 0.0201, 1e-3 * 0.0201);
+  EXPECT_THAT(even.notes[0], HasSubstr("which they tell within 1e-08 s"));
+}
+
+TEST(EvenRecord, RowsOfSeveralSignalsAreRefusedAndCopiesLeftOut) {
+  const auto pairs_every = [](int ms) {
+    return times_of(600, [&](int k) { return 0.001 * ms * (k / 2); });
+  };
+  EXPECT_EQ(refusal(record_at(pairs_every(2))),
+            "time: each time stands in 2 rows, with other values in each; if the rows are of "
+            "several signals or devices, write each to columns or a file of its own; if the times "
+            "are rounded, state the sampling period with --period");
+  EXPECT_THAT(refusal(record_at(pairs_every(1))),
+              HasSubstr("each time stands in 2 rows, with other values in each"));
+  auto with_one_absent = pairs_every(2);
+  with_one_absent.erase(with_one_absent.begin() + 101);
+  EXPECT_THAT(refusal(record_at(with_one_absent)), HasSubstr("one time stands in up to 2 rows"));
+  for (const int ms : {1, 2}) {
+    TimeRecord copied = record_at(pairs_every(ms));
+    for (std::size_t k = 0; k < copied.torque_N_m.size(); ++k) {
+      copied.torque_N_m[k] = static_cast<double>(k / 2);
+    }
+    const EvenRecords even = make_even(copied);
+    ASSERT_EQ(even.stretches.size(), 1U);
+    EXPECT_EQ(even.stretches[0].time_s.size(), 300U);
+    EXPECT_NEAR(sampling_period_s(even.stretches[0]), 0.001 * ms, 1e-9);
+    EXPECT_THAT(even.notes[0],
+                HasSubstr("300 samples with the time of the sample before left out"));
+  }
+}
+
 TEST(EvenRecord, AShortGapIsFilledAndALongOneSplits) {
   const auto gap_of = [](int missing) {
     return record_at(times_of(200, [&](int k) { return (k < 100 ? k : k + missing) * kPeriod_s; }));

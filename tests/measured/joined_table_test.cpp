@@ -126,6 +126,34 @@ TEST(JoinedTable, RowsThatAreAbsentAreNotMade) {
   }
 }
 
+TEST(JoinedTable, RowsThatOneFileLacksAreMissing) {
+  const auto lacking = [](TimedSignals file, std::ptrdiff_t first, std::ptrdiff_t rows) {
+    for (auto* values : {&file.times_s, &file.columns[0].values}) {
+      values->erase(values->begin() + first, values->begin() + first + rows);
+    }
+    return file;
+  };
+  const auto torque = signal("a.csv", "torque", 0.0, 0.01, 100, steps);
+  const auto angle = signal("b.csv", "theta", 0.0, 0.01, 100, smooth);
+  const auto table =
+      joined_table({lacking(torque, 20, 1), lacking(angle, 60, 9)}, JoinGrid::same, is_torque);
+  ASSERT_EQ(table.columns[0].values.size(), 100U);
+  for (std::size_t k = 0; k < 100; ++k) {
+    EXPECT_NEAR(table.columns[0].values[k], 0.01 * static_cast<double>(k), 1e-12);
+    EXPECT_EQ(std::isnan(table.columns[1].values[k]), k == 20) << k;
+    EXPECT_EQ(std::isnan(table.columns[2].values[k]), k >= 60 && k < 69) << k;
+    if (k < 60) {
+      EXPECT_EQ(table.columns[2].values[k], angle.columns[0].values[k]);
+    }
+  }
+  EXPECT_THAT(table.assumptions[1], HasSubstr("a.csv has no sample at 1 of 100 times"));
+  EXPECT_THAT(table.assumptions[2], HasSubstr("b.csv has no sample at 9 of 100 times"));
+  EXPECT_THAT(refusal({torque, signal("b.csv", "theta", 0.005, 0.01, 99, smooth)}, JoinGrid::same),
+              HasSubstr("the samples lie between each other"));
+  EXPECT_THAT(refusal({torque, signal("b.csv", "theta", 0.0, 0.02, 50, smooth)}, JoinGrid::same),
+              HasSubstr("--join-grid"));
+}
+
 TEST(JoinedTable, ClocksWithoutCommonTimeAreRefused) {
   EXPECT_THAT(refusal({signal("a.csv", "torque", 0.0, 0.01, 100, steps),
                        signal("b.csv", "theta", 1.7e9, 0.01, 100, smooth)},

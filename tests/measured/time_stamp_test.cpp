@@ -21,7 +21,7 @@ using testing::HasSubstr;
 std::vector<double> seconds(const std::vector<std::string>& texts) {
   std::vector<std::optional<TimeStamp>> stamps;
   for (const auto& text : texts) stamps.push_back(parse_time_stamp(text));
-  return seconds_since_first(stamps);
+  return stamped_times(stamps).seconds;
 }
 
 /// Each pair is 2.5 s apart.

@@ -5,6 +5,7 @@
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/missing_signs.hpp"
+#include "measured/files/name_change.hpp"
 #include "measured/files/record_constants.hpp"
 
 #include <fmt/format.h>
@@ -66,6 +67,13 @@ void assume_sensor(const ForeignFile& file, measured::ColumnMappings& mappings,
                    std::vector<std::string>& warnings) {
   if (file.responses.size() != 1 || !mappings.empty()) return;
   const auto& response = file.responses.front();
+  const std::string base = measured::split_column_name(response.name).base;
+  if (const auto change = measured::change_in(base); change && response.columns.empty()) {
+    throw InputError(
+        fmt::format("response {0}: its name has {1}; state it with --column 'SENSOR={2}:UNIT:SCALE'"
+                    ", SCALE -1 where it is the negative of the sensor",
+                    arm::shown(response.name), arm::shown(change->mark), arm::shown(base)));
+  }
   for (const char* sensor : {"hub_angle", "hub_velocity", "tip_acceleration"}) {
     if (!measured::is_unit_of(sensor, response.unit)) continue;
     const std::string unit(response.unit.empty() ? measured::si_unit_of(sensor)

@@ -4,6 +4,8 @@
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
+#include "measured/files/name_change.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -37,15 +39,31 @@ std::optional<std::string> standard(string_view base) {
   }
 }
 
-/// The factor in the name of a column, beside its unit; x2 alone has none.
-std::optional<NameFactor> factor_of(const ColumnLabel& label) {
-  auto factor = factor_in(split_column_name(label.name).base);
-  if (factor && factor->rest.empty()) factor.reset();
-  return factor;
+/// What the name of a column does to its quantity; x2 alone has nothing.
+std::optional<NameChange> change_of(const ColumnLabel& label) {
+  const ColumnName name = split_column_name(label.name);
+  auto change = change_in(name.base);
+  if (!change) change = change_in(quantity_name(label.name));
+  if (!change && !is_canonical_unit(name.unit)) change = change_in(label.name);  // abs(theta)
+  if (change && change->rest.empty()) change.reset();
+  return change;
+}
+
+/// Whether the column is the first derivative of the angle, by its name and its unit.
+bool is_velocity(const NameChange& change, const ColumnLabel& label) {
+  if (change.kind != ChangeKind::derivative || label.unit.empty()) return false;
+  const std::string base = quantity_name(change.rest);
+  const auto& angle = *std::ranges::find(quantity_words(), "hub_angle", &QuantityWords::quantity);
+  const bool is_of_angle = standard(base) == "hub_angle" ||
+                           std::ranges::count(angle.words, string_view(plain_letters(base))) > 0;
+  return is_of_angle && is_unit_of("hub_velocity", label.unit);
 }
 
 std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
-  if (factor_of(label)) return {};
+  if (const auto change = change_of(label)) {
+    if (is_velocity(*change, label)) return {{"hub_velocity", column}};
+    return {};
+  }
   const std::string base = quantity_name(label.name);
   if (const auto quantity = standard(base)) {
     if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
@@ -62,23 +80,55 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
   return found;
 }
 
+/// What is to be asked about a column whose name changes a quantity.
+ColumnQuestion question_of_change(const ColumnLabel& label, const NameChange& change,
+                                  string_view quantity) {
+  const std::string name = arm::shown(split_column_name(label.name).base);
+  const std::string mark = arm::shown(change.mark);
+  const std::string unit = label.unit.empty() ? "UNIT" : arm::shown(label.unit);
+  std::string sentence =
+      fmt::format("{} may be {}, but its name has {}; ", arm::shown(label.name), quantity, mark);
+  switch (change.kind) {
+    case ChangeKind::factor:
+      sentence += fmt::format(
+          "state its numbers with --column '{0}={1}:UNIT:SCALE', SCALE 1/100 where they are 100 "
+          "times {0}",
+          quantity, name);
+      break;
+    case ChangeKind::sign:
+      sentence += fmt::format(
+          "state it with --column '{0}={1}:{2}:-1', without -1 where its numbers are {0} itself",
+          quantity, name, unit);
+      break;
+    case ChangeKind::reference:
+      sentence += fmt::format(
+          "it may be a reference; state it with --reference '{1}', or with --column '{0}={1}:{2}' "
+          "where it was measured",
+          quantity, name, unit);
+      break;
+    case ChangeKind::derivative:
+    case ChangeKind::number:
+    case ChangeKind::function:
+      sentence += fmt::format(
+          "state it with --column 'QUANTITY={1}:UNIT', or compute it with --compute "
+          "'{0}=EXPRESSION'",
+          quantity, name);
+      break;
+  }
+  return {label.name, std::move(sentence), quantity == "torque"};
+}
+
 /// What is to be asked about a column whose name tells something, but not enough; nothing where
 /// it tells nothing.
 std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
-  const auto factor = factor_of(label);
-  const std::string base = quantity_name(factor ? factor->rest : label.name);
+  const auto change = change_of(label);
+  const std::string base = quantity_name(change ? change->rest : label.name);
   const std::string letters = plain_letters(base);
   const std::string name = arm::shown(split_column_name(label.name).base);
   const std::string column = arm::shown(label.name);
-  const auto of_factor = [&](string_view quantity) {
-    return ColumnQuestion{
-        label.name,
-        fmt::format("{0} may be {1}, but its name has {2}; state its numbers with --column "
-                    "'{1}={3}:UNIT:SCALE', SCALE 1/100 where they are 100 times {1}",
-                    column, quantity, arm::shown(factor->factor), name),
-        quantity == "torque"};
-  };
-  if (const auto quantity = standard(base); factor && quantity) return of_factor(*quantity);
+  if (const auto quantity = standard(base); change && quantity) {
+    return question_of_change(label, *change, *quantity);
+  }
   for (const auto& open : open_words()) {
     const bool is_of_unit =
         label.unit.empty() || std::ranges::count(open.units, string_view(label.unit)) > 0;
@@ -90,7 +140,7 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   }
   for (const auto& [quantity, words, needs_unit] : quantity_words()) {
     if (std::ranges::count(words, letters) == 0) continue;
-    if (factor) return of_factor(quantity);
+    if (change) return question_of_change(label, *change, quantity);
     if (is_unit_of(quantity, label.unit)) continue;
     return ColumnQuestion{
         label.name,
@@ -107,7 +157,7 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
                                      const std::string& quantity) {
   std::vector<ColumnCandidate> found;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].is_text || columns[i].unit.empty() || factor_of(columns[i])) continue;
+    if (columns[i].is_text || columns[i].unit.empty() || change_of(columns[i])) continue;
     if (is_unit_of(quantity, columns[i].unit)) {
       found.push_back({quantity, i, false});
     }

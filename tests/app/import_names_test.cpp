@@ -1,0 +1,85 @@
+// Names and units in a log that say more than a quantity, imported by the program.
+#include "tests/app/import_files.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace flexarm::testing_app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class ImportNames : public ImportFiles {
+ protected:
+  /// A log of three rows under the header.
+  void write_log(const std::string& header) const {
+    write("log.csv", header + "\n0,1,90\n1,2,90\n2,3,90\n");
+  }
+};
+
+TEST_F(ImportNames, ASignInANameIsNeverIgnored) {
+  write_log("t [s],-Torque [Nm],theta [deg]");
+  EXPECT_THAT(import({"log.csv"}).errors,
+              HasSubstr("-Torque [Nm] may be torque, but its name has -; state it with --column "
+                        "'torque=-Torque:N m:-1', without -1 where its numbers are torque itself"));
+  EXPECT_EQ(record({"log.csv", "--column", "torque=-Torque:N m:-1"}).torque_N_m[2], -3.0);
+  write("log.json",
+        R"({"t": [0, 1, 2], "tau": [1, 2, 3], "-theta": [1, 2, 3], "omega": [1, 2, 3]})");
+  const auto made = record({"log.json"});
+  ASSERT_EQ(made.channels.size(), 1U);
+  EXPECT_THAT(output_, HasSubstr("warning: not imported: -theta may be hub_angle"));
+}
+
+TEST_F(ImportNames, AFunctionInANameIsNeverIgnored) {
+  for (const std::string name :
+       {"|tau|", "abs(tau)", "d(tau)/dt", "1-tau", "1/tau", "tau+90", "\xce\x94tau", "-tau"}) {
+    write_log("t [s]," + name + " [N m],theta [deg]");
+    EXPECT_THAT(import({"log.csv"}).errors, AllOf(HasSubstr("torque: column not recognised"),
+                                                  HasSubstr("may be torque, but its name has")))
+        << name;
+  }
+}
+
+TEST_F(ImportNames, PartsOfAResponseAreReadWithoutSignsAndNumbersInTheirNamesAlone) {
+  const std::string rows = "\n1,2,3\n2,3,4\n";
+  for (const std::string columns :
+       {"Real,-Imag", "Re(H1),-Im(H1)", "Magnitude (dB),-Phase (deg)", "-Gain (dB),Phase (deg)",
+        "1/Magnitude,Phase (deg)", "Magnitude (dB),Phase (deg) + 180",
+        "Magnitude (dB) - 20,Phase (deg)"}) {
+    write("f.csv", "Frequency (Hz)," + columns + rows);
+    EXPECT_THAT(import({"f.csv"}).errors, HasSubstr("write the numbers without it")) << columns;
+  }
+  for (const std::string columns :
+       {"Inverse magnitude (dB),Phase (deg)", "Tau/Theta Magnitude,Tau/Theta Phase (deg)"}) {
+    write("f.csv", "Frequency (Hz)," + columns + rows);
+    EXPECT_THAT(import({"f.csv"}).errors, HasSubstr("an inverse of the response")) << columns;
+  }
+  write("f.csv", "Frequency (Hz),conj H real,conj H imag" + rows);
+  EXPECT_THAT(import({"f.csv"}).errors, HasSubstr("a conjugate, whose phase has the other sign"));
+  for (const std::string columns :
+       {"Theta/Tau Magnitude (rad/Nm),Theta/Tau Phase (deg)", "|H1|,arg(H1) (rad)",
+        "abs(H1),phase(H1) (rad)", "H1-2 mag,H1-2 phase (rad)"}) {
+    write("f.csv", "Frequency (Hz)," + columns + rows);
+    EXPECT_EQ(response({"f.csv"}).channels.size(), 1U) << columns;
+  }
+}
+
+TEST_F(ImportNames, MarksOfDerivativesAndReferencesAreAskedAbout) {
+  for (const std::string name : {"theta'", "theta.", "\xce\xb8\xcc\x87", "\xce\xb8\xcc\x88"}) {
+    write_log("t [s],tau [N m]," + name);
+    EXPECT_THAT(import({"log.csv"}).errors, HasSubstr("may be hub_angle, but its name has"))
+        << name;
+  }
+  write_log("t [s],tau [N m],\xce\xb8* [rad]");
+  EXPECT_THAT(import({"log.csv"}).errors, HasSubstr("it may be a reference; state it with"));
+  write_log("t [s],tau [N m],\xce\xb8\xcc\x87 [rad/s]");
+  EXPECT_EQ(record({"log.csv"}).channels.at(0).sensor.kind, arm::SensorKind::hub_velocity);
+}
+
+}  // namespace
+}  // namespace flexarm::testing_app

@@ -324,6 +324,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
+  imported.warnings.insert(imported.warnings.end(), guess.warnings.begin(), guess.warnings.end());
   for (const auto& question : guess.questions) {
     const bool is_needed_for_torque = question.may_be_torque && guess.mappings.contains("torque");
     if (is_needed_for_torque || !is_unused(question.column, imported)) continue;

@@ -29,6 +29,7 @@ struct ColumnCandidate {
   std::size_t column = 0;
   bool is_standard = false;  ///< by its standard name
   bool is_by_unit = false;   ///< by a word that needs its unit
+  bool is_unnamed = false;   ///< by its unit alone
 };
 
 std::optional<std::string> standard(string_view base) {
@@ -47,6 +48,16 @@ std::optional<NameChange> change_of(const ColumnLabel& label) {
   if (!change && !is_canonical_unit(name.unit)) change = change_in(label.name);  // abs(theta)
   if (change && change->rest.empty()) change.reset();
   return change;
+}
+
+/// Whether a name is a standard one or a word for a quantity.
+bool names_quantity(string_view name) {
+  const std::string base = quantity_name(name);
+  const std::string letters = plain_letters(base);
+  return standard(base).has_value() ||
+         std::ranges::any_of(quantity_words(), [&](const QuantityWords& entry) {
+           return std::ranges::count(entry.words, string_view(letters)) > 0;
+         });
 }
 
 /// Whether the column is the first derivative of the angle, by its name and its unit.
@@ -152,15 +163,39 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   return std::nullopt;
 }
 
-/// The only column of a unit that nothing else has: a time, or a torque.
+/// The word or the mark by which a column in a unit of torque is not that of the motor; empty
+/// without one. A number behind a name that tells nothing is one of a part or a date.
+std::string not_motor_torque(const ColumnLabel& label) {
+  if (const auto change = change_of(label)) {
+    if (change->kind != ChangeKind::number || names_quantity(change->rest)) return change->mark;
+  }
+  return other_torque_word(label.name);
+}
+
+/// What is to be asked about a column in a unit of torque that is another one by its name.
+std::optional<ColumnQuestion> question_about_torque(const ColumnLabel& label) {
+  if (label.unit.empty() || !is_unit_of("torque", label.unit)) return std::nullopt;
+  const std::string word = not_motor_torque(label);
+  if (word.empty()) return std::nullopt;
+  return ColumnQuestion{
+      label.name,
+      fmt::format("{} may be torque, but its name has {}; if it is the torque on the hub, state it "
+                  "with --column 'torque={}:{}'",
+                  arm::shown(label.name), arm::shown(word),
+                  arm::shown(split_column_name(label.name).base), arm::shown(label.unit)),
+      true};
+}
+
+/// The columns in a unit that nothing else has: a time, or a torque.
 std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
                                      const std::string& quantity) {
   std::vector<ColumnCandidate> found;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].is_text || columns[i].unit.empty() || change_of(columns[i])) continue;
-    if (is_unit_of(quantity, columns[i].unit)) {
-      found.push_back({quantity, i, false});
-    }
+    if (columns[i].is_text || columns[i].unit.empty()) continue;
+    if (!is_unit_of(quantity, columns[i].unit)) continue;
+    const bool is_other = quantity == "torque" ? !not_motor_torque(columns[i]).empty()
+                                               : change_of(columns[i]).has_value();
+    if (!is_other) found.push_back({.quantity = quantity, .column = i, .is_unnamed = true});
   }
   return found;
 }
@@ -236,13 +271,21 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
       guess.notes.push_back(
           fmt::format("unit of {} not given; {} assumed", arm::shown(label.name), si_unit));
     }
+    if (quantity == "torque" && found.front().is_unnamed) {
+      guess.warnings.push_back(fmt::format(
+          "{0} is taken as torque by its unit alone; state the torque on the hub with --column "
+          "'torque={1}', if this is it, or another column, or --torque EXPRESSION",
+          arm::shown(label.name), arm::shown(split_column_name(label.name).base)));
+    }
     guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit,
                                 scale_of_unit(quantity, label.unit)};
   }
   const auto used = places_used(guess.mappings, names);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].is_text || std::ranges::count(used, i) > 0) continue;
-    if (auto question = question_about(columns[i])) guess.questions.push_back(std::move(*question));
+    auto question = question_about(columns[i]);
+    if (!question) question = question_about_torque(columns[i]);
+    if (question) guess.questions.push_back(std::move(*question));
   }
   return guess;
 }

@@ -81,5 +81,38 @@ TEST_F(ImportNames, MarksOfDerivativesAndReferencesAreAskedAbout) {
   EXPECT_EQ(record({"log.csv"}).channels.at(0).sensor.kind, arm::SensorKind::hub_velocity);
 }
 
+TEST_F(ImportNames, ATorqueThatItsUnitAloneTellsIsWarnedAbout) {
+  for (const std::string name : {"foo", "Channel A", "torque at link side", "maxon"}) {
+    write_log("t [s]," + name + " [N m],theta [deg]");
+    EXPECT_EQ(record({"log.csv"}).torque_N_m[2], 3.0);
+    EXPECT_THAT(output_, HasSubstr("warning: " + name + " [N m] is taken as torque by its unit"));
+    record({"log.csv", "--column", "torque=" + name});
+    EXPECT_THAT(output_, Not(HasSubstr("by its unit")));
+  }
+  for (const std::string name : {"Drehmoment", "motor torque", "tau"}) {
+    write_log("t [s]," + name + " [N m],theta [deg]");
+    record({"log.csv"});
+    EXPECT_THAT(output_, Not(HasSubstr("by its unit")));
+  }
+}
+
+TEST_F(ImportNames, ATorqueThatIsNotTheMotorsIsAskedAbout) {
+  for (const std::string name :
+       {"bending moment", "Biegemoment", "Lastmoment", "torque limit", "torque rate",
+        "torque noise", "max. Moment", "torque min", "friction torque", "Reibmoment",
+        "St\xc3\xb6rmoment", "root moment", "torque (negated)", "torque_ref2", "gravity torque",
+        "MaxTorque"}) {
+    write_log("t [s]," + name + " [N m],theta [deg]");
+    EXPECT_THAT(import({"log.csv"}).errors,
+                AllOf(HasSubstr("torque: column not recognised"),
+                      HasSubstr("if it is the torque on the hub, state it with --column 'torque=")))
+        << name;
+  }
+  // Beside the torque it is nothing.
+  write("log.csv", "t [s],tau [N m],load torque [N m],theta [deg]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n");
+  record({"log.csv"});
+  EXPECT_THAT(output_, Not(HasSubstr("load torque [N m] may be")));
+}
+
 }  // namespace
 }  // namespace flexarm::testing_app

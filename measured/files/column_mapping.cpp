@@ -181,6 +181,12 @@ bool repeats_conversion(std::string_view standard_name, std::string_view unit, d
   constexpr double kAlike = 0.01;
   constexpr double kTwoDigits = 0.05;  // 1.05 as 1.1
   const double own = conversion_of(standard_name, unit).value_or(1.0);
+  if (own != 1.0 && std::abs(std::abs(scale) * own - 1.0) < kAlike) {
+    throw InputError(fmt::format(
+        "scale = {0:.6g}: the inverse of the conversion of {1}, {2:.6g}, which is applied already; "
+        "leave it out if the numbers are in {1}; write unit {3} if they are in {3}",
+        scale, unit, own, si_unit_of(standard_name)));
+  }
   const double off = std::abs(std::abs(scale) / own - 1.0);
   if (own == 1.0 || off > kTwoDigits) return false;
   if (off < kAlike) return true;

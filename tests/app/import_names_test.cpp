@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace flexarm::testing_app {
 namespace {
@@ -112,6 +113,41 @@ TEST_F(ImportNames, ATorqueThatIsNotTheMotorsIsAskedAbout) {
   write("log.csv", "t [s],tau [N m],load torque [N m],theta [deg]\n0,1,2,3\n1,1,2,3\n2,1,2,3\n");
   record({"log.csv"});
   EXPECT_THAT(output_, Not(HasSubstr("load torque [N m] may be")));
+}
+
+TEST_F(ImportNames, AStatedUnitThatTheFileContradictsIsWarnedOf) {
+  write_log("t_ms,Torque (mNm),Angle (deg)");
+  const auto expect_warned = [&](const std::vector<std::string>& options, const std::string& of) {
+    std::vector<std::string> arguments = {"log.csv"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    record(arguments);
+    EXPECT_THAT(output_, HasSubstr("warning: " + of)) << of;
+  };
+  expect_warned({"--torque", "[Torque]"}, "torque: the file tells N mm of Torque (mNm), but it is");
+  expect_warned({"--column", "hub_angle=Angle (deg):rad"},
+                "hub_angle: the file tells deg of Angle");
+  expect_warned({"--column", "torque=Angle:V:2", "--column", "hub_angle=Torque:V:2"},
+                "torque: the file tells deg of Angle");
+  expect_warned({"--time-unit", "s"}, "time: the file tells ms of t_ms, but it is read in s");
+  expect_warned({"--compute", "hub_velocity=ddt([Angle])"}, "hub_velocity: the file tells deg of");
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--torque", "0.001*[Torque]"},
+           {"--column", "hub_angle=Angle:rad:0.0171"},
+           {"--column", "hub_angle=Torque:deg:90", "--column", "torque=Angle:N m:2"},
+           {"--compute", "hub_velocity [deg/s]=ddt([Angle])"}}) {
+    std::vector<std::string> arguments = {"log.csv"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    record(arguments);
+    EXPECT_THAT(output_, Not(HasSubstr("the file tells"))) << options[1];
+  }
+}
+
+TEST_F(ImportNames, AScaleThatUndoesTheConversionOfItsUnitIsRefused) {
+  write_log("t [s],tau [N m],th");
+  expect_refused(import({"log.csv", "--column", "hub_angle=th:deg:180/pi"}),
+                 "--column hub_angle=th:deg:180/pi: scale = 57.2958: the inverse of the conversion "
+                 "of deg, 0.0174533, which is applied already; leave it out if the numbers are in "
+                 "deg; write unit rad if they are in rad");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "measured/files/column_guess.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/number.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
@@ -32,12 +33,31 @@ struct ColumnCandidate {
   bool is_unnamed = false;   ///< by its unit alone
 };
 
+/// "strain@0.05" of "strain@50mm", "strain@0.05m" and "strain@0,05"; any other name as it is.
+std::string with_place_in_metres(string_view base) {
+  constexpr string_view kGauge = "strain@";
+  if (!base.starts_with(kGauge)) return std::string(base);
+  std::string place(base.substr(kGauge.size()));
+  std::ranges::replace(place, ',', '.');
+  const std::size_t end = std::min(place.find_first_not_of("0123456789."), place.size());
+  const auto number = arm::parse_number<double>(string_view(place).substr(0, end));
+  const auto metres = conversion_of("tip_displacement", string_view(place).substr(end));
+  if (!number || !metres) return std::string(base);
+  return fmt::format("{}{:.12g}", kGauge, *number * *metres);
+}
+
 std::optional<std::string> standard(string_view base) {
   try {
-    return standard_name(base);
+    return standard_name(with_place_in_metres(base));
   } catch (const arm::InputError&) {
     return std::nullopt;
   }
+}
+
+/// Whether it is a gauge far from the hub, by a number without a unit.
+bool is_place_unclear(string_view base) {
+  const auto quantity = standard(base);
+  return quantity && is_doubtful_place(*quantity) && base.back() >= '0' && base.back() <= '9';
 }
 
 /// What the name of a column does to its quantity; x2 alone has nothing.
@@ -77,7 +97,8 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
   }
   const std::string base = quantity_name(label.name);
   if (const auto quantity = standard(base)) {
-    if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
+    const bool is_read = is_unit_of(*quantity, label.unit) && !is_place_unclear(base);
+    if (is_read) return {{*quantity, column, true}};
     return {};
   }
   std::vector<ColumnCandidate> found;
@@ -139,6 +160,13 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   const std::string column = arm::shown(label.name);
   if (const auto quantity = standard(base); change && quantity) {
     return question_of_change(label, *change, *quantity);
+  }
+  if (is_place_unclear(base)) {
+    return ColumnQuestion{
+        label.name,
+        fmt::format("{} may be a strain at a place in mm; state it with --column 'strain@X={}', X "
+                    "in m from the hub",
+                    column, name)};
   }
   for (const auto& open : open_words()) {
     const bool is_of_unit =

@@ -142,6 +142,12 @@ std::string standard_name(std::string_view name) {
   }
 }
 
+bool is_doubtful_place(std::string_view standard_name) {
+  constexpr double kFarthest_m = 5.0;
+  const auto sensor = sensor_of(standard_name);
+  return sensor && sensor->kind == arm::SensorKind::strain && sensor->position_m >= kFarthest_m;
+}
+
 std::optional<arm::Sensor> sensor_of(std::string_view standard_name) {
   if (standard_name == kTime || standard_name == kTorque) return std::nullopt;
   return arm::parse_sensor(standard_name);
@@ -234,7 +240,7 @@ ColumnMappings standard_mapping(const std::string& header) {
   if (name.unit.empty() || !header.ends_with(']')) return {};
   try {
     const std::string quantity = standard_name(name.base);
-    if (!unit_of(quantity, name.unit)) return {};
+    if (!unit_of(quantity, name.unit) || is_doubtful_place(quantity)) return {};
     return {{quantity, {header, name.unit, 1.0}}};
   } catch (const InputError&) {
     return {};

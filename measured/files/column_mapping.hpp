@@ -36,6 +36,9 @@ using ColumnMappings = std::map<std::string, ColumnMapping>;
 /// names allowed for any other.
 std::string standard_name(std::string_view name);
 
+/// Whether it is a gauge at 5 m or beyond, where "strain@50" is in mm more often than in m.
+bool is_doubtful_place(std::string_view standard_name);
+
 /// The sensor of a standard name; empty for "time" and "torque".
 std::optional<arm::Sensor> sensor_of(std::string_view standard_name);
 

@@ -150,5 +150,30 @@ TEST_F(ImportNames, AScaleThatUndoesTheConversionOfItsUnitIsRefused) {
                  "deg; write unit rad if they are in rad");
 }
 
+TEST_F(ImportNames, ThePlaceOfAGaugeIsInMetresOrHasAUnit) {
+  for (const std::string name : {"strain@50mm", "strain@50 mm", "strain@0.05m", "strain@0,05"}) {
+    write("log.csv", "t [s];tau [N m];" + name + " [\xc2\xb5\xce\xb5]\n0;1;90\n1;1;90\n2;1;90\n");
+    const auto made = record({"log.csv"});
+    ASSERT_EQ(made.channels.size(), 1U) << name;
+    EXPECT_EQ(arm::to_string(made.channels[0].sensor), "strain@0.05") << name;
+  }
+  write_log("t [s],tau [N m],strain@50 [ustrain]");
+  EXPECT_THAT(import({"log.csv"}).errors,
+              HasSubstr("strain@50 [ustrain] may be a strain at a place in mm; state it with "
+                        "--column 'strain@X=strain@50', X in m from the hub"));
+  EXPECT_EQ(record({"log.csv", "--column", "strain@0.05=strain@50"}).channels.size(), 1U);
+  write("log.csv", "t [s],tau [N m],theta [rad],strain@50 [1]\n0,1,1,1\n1,1,1,1\n2,1,1,1\n");
+  EXPECT_EQ(record({"log.csv"}).channels.size(), 1U);
+  EXPECT_THAT(output_, HasSubstr("warning: not imported: strain@50 [1] may be a strain"));
+}
+
+TEST_F(ImportNames, CoherencesThatAreNoneAreNoted) {
+  write("f.csv",
+        "Frequency (Hz),Coherence,Magnitude (rad/Nm),Phase (deg)\n1,1.02,2,30\n2,0.5,2,40\n");
+  const auto made = response({"f.csv"});
+  EXPECT_EQ(made.channels.at(0).coherence.at(1), 0.5);
+  EXPECT_THAT(output_, HasSubstr("1 of 2 coherences of Coherence are not known: must be above 0"));
+}
+
 }  // namespace
 }  // namespace flexarm::testing_app

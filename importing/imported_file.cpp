@@ -4,6 +4,7 @@
 #include "arm/range.hpp"
 #include "importing/imported_responses.hpp"
 #include "importing/running_times.hpp"
+#include "importing/unit_contradictions.hpp"
 #include "measured/checks/time_unit_check.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/complete_rows.hpp"
@@ -325,6 +326,9 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
+  std::ranges::move(unit_contradictions(guess.mappings, labels),
+                    std::back_inserter(imported.warnings));
+  imported.warnings.insert(imported.warnings.end(), guess.warnings.begin(), guess.warnings.end());
   for (const auto& question : guess.questions) {
     const bool is_needed_for_torque = question.may_be_torque && guess.mappings.contains("torque");
     if (is_needed_for_torque || !is_unused(question.column, imported)) continue;

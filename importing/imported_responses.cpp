@@ -1,11 +1,14 @@
 #include "importing/imported_responses.hpp"
 
 #include "arm/input_error.hpp"
+#include "importing/unit_contradictions.hpp"
 #include "measured/files/column_guess.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/missing_signs.hpp"
+#include "measured/files/name_change.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,7 +39,7 @@ std::string response_names(const ForeignFile& file) {
 
 /// Responses in columns are typed by any of these: each such name becomes that of the response.
 measured::ColumnMappings mappings_by_columns(const ForeignFile& file, const ColumnChoice& choice,
-                                             std::vector<std::string>& notes) {
+                                             ImportedFile& imported) {
   auto columns = measured::labels_of(file.table);
   const auto response_of = [&](std::size_t column) {
     return std::ranges::find_if(file.responses, [&](const auto& response) {
@@ -49,7 +52,8 @@ measured::ColumnMappings mappings_by_columns(const ForeignFile& file, const Colu
   }
   std::vector<std::string> names;
   for (const auto& column : columns) names.push_back(column.name);
-  auto mappings = choice.mappings(columns, notes);
+  auto mappings = choice.mappings(columns, imported.assumptions);
+  std::ranges::move(unit_contradictions(mappings, columns), std::back_inserter(imported.warnings));
   for (auto& [quantity, mapping] : mappings) {
     const auto response = response_of(*measured::column_place(names, mapping.name));
     if (response == file.responses.end()) {
@@ -66,6 +70,13 @@ void assume_sensor(const ForeignFile& file, measured::ColumnMappings& mappings,
                    std::vector<std::string>& warnings) {
   if (file.responses.size() != 1 || !mappings.empty()) return;
   const auto& response = file.responses.front();
+  const std::string base = measured::split_column_name(response.name).base;
+  if (const auto change = measured::change_in(base); change && response.columns.empty()) {
+    throw InputError(
+        fmt::format("response {0}: its name has {1}; state it with --column 'SENSOR={2}:UNIT:SCALE'"
+                    ", SCALE -1 where it is the negative of the sensor",
+                    arm::shown(response.name), arm::shown(change->mark), arm::shown(base)));
+  }
   for (const char* sensor : {"hub_angle", "hub_velocity", "tip_acceleration"}) {
     if (!measured::is_unit_of(sensor, response.unit)) continue;
     const std::string unit(response.unit.empty() ? measured::si_unit_of(sensor)
@@ -122,8 +133,9 @@ void read_responses(ForeignFile& file, const FileChoice& choice, ImportedFile& i
   measured::ColumnMappings typed;
   if (file.responses.front().columns.empty()) {
     typed = choice.columns.mappings(responses, imported.assumptions);
+    std::ranges::move(unit_contradictions(typed, responses), std::back_inserter(imported.warnings));
   } else {
-    typed = mappings_by_columns(file, choice.columns, imported.assumptions);
+    typed = mappings_by_columns(file, choice.columns, imported);
   }
   auto to_guess = responses;
   for (const auto place : choice.columns.left_out_places(responses)) {
@@ -164,11 +176,19 @@ std::vector<std::string> doubtful_parts(std::span<const std::complex<double>> re
 }
 
 void take_typed_responses(ForeignFile& file, const FileChoice& choice) {
-  const auto parts = choice.columns.response_parts(measured::labels_of(file.table));
+  const auto labels = measured::labels_of(file.table);
+  const auto parts = choice.columns.response_parts(labels);
   if (parts.empty()) {
     const bool is_for_time = choice.kind == measured::RunKind::time;
     if (!is_for_time && !file.response_fault.empty()) throw InputError(file.response_fault);
     return;
+  }
+  for (const auto& part : parts) {
+    const ColumnLabel& label = labels[part.column];
+    if (label.unit == part.unit || !measured::is_canonical_unit(label.unit)) continue;
+    file.table.assumptions.push_back(
+        fmt::format("{}: the file tells {} of {}, but it is read in {}, as stated",
+                    to_string(part.part), label.unit, arm::shown(label.name), part.unit));
   }
   file.response_fault.clear();
   auto made = measured::responses_of(file.table, parts);

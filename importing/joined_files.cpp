@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/read_word.hpp"
+#include "importing/unit_contradictions.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/common_clock.hpp"
 #include "measured/files/missing_signs.hpp"
@@ -51,7 +52,10 @@ measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const Fi
   auto guess = measured::guess_columns(labels, of_time.mappings(labels, notes));
   of_time.set_time_unit(guess.mappings);
   const auto time = guess.mappings.find("time");
-  if (time != guess.mappings.end()) return time->second;
+  if (time != guess.mappings.end()) {
+    std::ranges::move(unit_contradictions({*time}, labels), std::back_inserter(notes));
+    return time->second;
+  }
   std::vector<std::string> names;
   for (const auto& label : labels) names.push_back(label.name);
   throw InputError(

@@ -1,9 +1,12 @@
 #include "measured/files/column_guess.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/number.hpp"
 #include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
+#include "measured/files/name_change.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,28 +30,75 @@ struct ColumnCandidate {
   std::size_t column = 0;
   bool is_standard = false;  ///< by its standard name
   bool is_by_unit = false;   ///< by a word that needs its unit
+  bool is_unnamed = false;   ///< by its unit alone
 };
+
+/// "strain@0.05" of "strain@50mm", "strain@0.05m" and "strain@0,05"; any other name as it is.
+std::string with_place_in_metres(string_view base) {
+  constexpr string_view kGauge = "strain@";
+  if (!base.starts_with(kGauge)) return std::string(base);
+  std::string place(base.substr(kGauge.size()));
+  std::ranges::replace(place, ',', '.');
+  const std::size_t end = std::min(place.find_first_not_of("0123456789."), place.size());
+  const auto number = arm::parse_number<double>(string_view(place).substr(0, end));
+  const auto metres = conversion_of("tip_displacement", string_view(place).substr(end));
+  if (!number || !metres) return std::string(base);
+  return fmt::format("{}{:.12g}", kGauge, *number * *metres);
+}
 
 std::optional<std::string> standard(string_view base) {
   try {
-    return standard_name(base);
+    return standard_name(with_place_in_metres(base));
   } catch (const arm::InputError&) {
     return std::nullopt;
   }
 }
 
-/// The factor in the name of a column, beside its unit; x2 alone has none.
-std::optional<NameFactor> factor_of(const ColumnLabel& label) {
-  auto factor = factor_in(split_column_name(label.name).base);
-  if (factor && factor->rest.empty()) factor.reset();
-  return factor;
+/// Whether it is a gauge far from the hub, by a number without a unit.
+bool is_place_unclear(string_view base) {
+  const auto quantity = standard(base);
+  return quantity && is_doubtful_place(*quantity) && base.back() >= '0' && base.back() <= '9';
+}
+
+/// What the name of a column does to its quantity; x2 alone has nothing.
+std::optional<NameChange> change_of(const ColumnLabel& label) {
+  const ColumnName name = split_column_name(label.name);
+  auto change = change_in(name.base);
+  if (!change) change = change_in(quantity_name(label.name));
+  if (!change && !is_canonical_unit(name.unit)) change = change_in(label.name);  // abs(theta)
+  if (change && change->rest.empty()) change.reset();
+  return change;
+}
+
+/// Whether a name is a standard one or a word for a quantity.
+bool names_quantity(string_view name) {
+  const std::string base = quantity_name(name);
+  const std::string letters = plain_letters(base);
+  return standard(base).has_value() ||
+         std::ranges::any_of(quantity_words(), [&](const QuantityWords& entry) {
+           return std::ranges::count(entry.words, string_view(letters)) > 0;
+         });
+}
+
+/// Whether the column is the first derivative of the angle, by its name and its unit.
+bool is_velocity(const NameChange& change, const ColumnLabel& label) {
+  if (change.kind != ChangeKind::derivative || label.unit.empty()) return false;
+  const std::string base = quantity_name(change.rest);
+  const auto& angle = *std::ranges::find(quantity_words(), "hub_angle", &QuantityWords::quantity);
+  const bool is_of_angle = standard(base) == "hub_angle" ||
+                           std::ranges::count(angle.words, string_view(plain_letters(base))) > 0;
+  return is_of_angle && is_unit_of("hub_velocity", label.unit);
 }
 
 std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_t column) {
-  if (factor_of(label)) return {};
+  if (const auto change = change_of(label)) {
+    if (is_velocity(*change, label)) return {{"hub_velocity", column}};
+    return {};
+  }
   const std::string base = quantity_name(label.name);
   if (const auto quantity = standard(base)) {
-    if (is_unit_of(*quantity, label.unit)) return {{*quantity, column, true}};
+    const bool is_read = is_unit_of(*quantity, label.unit) && !is_place_unclear(base);
+    if (is_read) return {{*quantity, column, true}};
     return {};
   }
   std::vector<ColumnCandidate> found;
@@ -62,23 +112,62 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
   return found;
 }
 
+/// What is to be asked about a column whose name changes a quantity.
+ColumnQuestion question_of_change(const ColumnLabel& label, const NameChange& change,
+                                  string_view quantity) {
+  const std::string name = arm::shown(split_column_name(label.name).base);
+  const std::string mark = arm::shown(change.mark);
+  const std::string unit = label.unit.empty() ? "UNIT" : arm::shown(label.unit);
+  std::string sentence =
+      fmt::format("{} may be {}, but its name has {}; ", arm::shown(label.name), quantity, mark);
+  switch (change.kind) {
+    case ChangeKind::factor:
+      sentence += fmt::format(
+          "state its numbers with --column '{0}={1}:UNIT:SCALE', SCALE 1/100 where they are 100 "
+          "times {0}",
+          quantity, name);
+      break;
+    case ChangeKind::sign:
+      sentence += fmt::format(
+          "state it with --column '{0}={1}:{2}:-1', without -1 where its numbers are {0} itself",
+          quantity, name, unit);
+      break;
+    case ChangeKind::reference:
+      sentence += fmt::format(
+          "it may be a reference; state it with --reference '{1}', or with --column '{0}={1}:{2}' "
+          "where it was measured",
+          quantity, name, unit);
+      break;
+    case ChangeKind::derivative:
+    case ChangeKind::number:
+    case ChangeKind::function:
+      sentence += fmt::format(
+          "state it with --column 'QUANTITY={1}:UNIT', or compute it with --compute "
+          "'{0}=EXPRESSION'",
+          quantity, name);
+      break;
+  }
+  return {label.name, std::move(sentence), quantity == "torque"};
+}
+
 /// What is to be asked about a column whose name tells something, but not enough; nothing where
 /// it tells nothing.
 std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
-  const auto factor = factor_of(label);
-  const std::string base = quantity_name(factor ? factor->rest : label.name);
+  const auto change = change_of(label);
+  const std::string base = quantity_name(change ? change->rest : label.name);
   const std::string letters = plain_letters(base);
   const std::string name = arm::shown(split_column_name(label.name).base);
   const std::string column = arm::shown(label.name);
-  const auto of_factor = [&](string_view quantity) {
+  if (const auto quantity = standard(base); change && quantity) {
+    return question_of_change(label, *change, *quantity);
+  }
+  if (is_place_unclear(base)) {
     return ColumnQuestion{
         label.name,
-        fmt::format("{0} may be {1}, but its name has {2}; state its numbers with --column "
-                    "'{1}={3}:UNIT:SCALE', SCALE 1/100 where they are 100 times {1}",
-                    column, quantity, arm::shown(factor->factor), name),
-        quantity == "torque"};
-  };
-  if (const auto quantity = standard(base); factor && quantity) return of_factor(*quantity);
+        fmt::format("{} may be a strain at a place in mm; state it with --column 'strain@X={}', X "
+                    "in m from the hub",
+                    column, name)};
+  }
   for (const auto& open : open_words()) {
     const bool is_of_unit =
         label.unit.empty() || std::ranges::count(open.units, string_view(label.unit)) > 0;
@@ -90,7 +179,7 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   }
   for (const auto& [quantity, words, needs_unit] : quantity_words()) {
     if (std::ranges::count(words, letters) == 0) continue;
-    if (factor) return of_factor(quantity);
+    if (change) return question_of_change(label, *change, quantity);
     if (is_unit_of(quantity, label.unit)) continue;
     return ColumnQuestion{
         label.name,
@@ -102,15 +191,39 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
   return std::nullopt;
 }
 
-/// The only column of a unit that nothing else has: a time, or a torque.
+/// The word or the mark by which a column in a unit of torque is not that of the motor; empty
+/// without one. A number behind a name that tells nothing is one of a part or a date.
+std::string not_motor_torque(const ColumnLabel& label) {
+  if (const auto change = change_of(label)) {
+    if (change->kind != ChangeKind::number || names_quantity(change->rest)) return change->mark;
+  }
+  return other_torque_word(label.name);
+}
+
+/// What is to be asked about a column in a unit of torque that is another one by its name.
+std::optional<ColumnQuestion> question_about_torque(const ColumnLabel& label) {
+  if (label.unit.empty() || !is_unit_of("torque", label.unit)) return std::nullopt;
+  const std::string word = not_motor_torque(label);
+  if (word.empty()) return std::nullopt;
+  return ColumnQuestion{
+      label.name,
+      fmt::format("{} may be torque, but its name has {}; if it is the torque on the hub, state it "
+                  "with --column 'torque={}:{}'",
+                  arm::shown(label.name), arm::shown(word),
+                  arm::shown(split_column_name(label.name).base), arm::shown(label.unit)),
+      true};
+}
+
+/// The columns in a unit that nothing else has: a time, or a torque.
 std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
                                      const std::string& quantity) {
   std::vector<ColumnCandidate> found;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].is_text || columns[i].unit.empty() || factor_of(columns[i])) continue;
-    if (is_unit_of(quantity, columns[i].unit)) {
-      found.push_back({quantity, i, false});
-    }
+    if (columns[i].is_text || columns[i].unit.empty()) continue;
+    if (!is_unit_of(quantity, columns[i].unit)) continue;
+    const bool is_other = quantity == "torque" ? !not_motor_torque(columns[i]).empty()
+                                               : change_of(columns[i]).has_value();
+    if (!is_other) found.push_back({.quantity = quantity, .column = i, .is_unnamed = true});
   }
   return found;
 }
@@ -186,13 +299,21 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
       guess.notes.push_back(
           fmt::format("unit of {} not given; {} assumed", arm::shown(label.name), si_unit));
     }
+    if (quantity == "torque" && found.front().is_unnamed) {
+      guess.warnings.push_back(fmt::format(
+          "{0} is taken as torque by its unit alone; state the torque on the hub with --column "
+          "'torque={1}', if this is it, or another column, or --torque EXPRESSION",
+          arm::shown(label.name), arm::shown(split_column_name(label.name).base)));
+    }
     guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit,
                                 scale_of_unit(quantity, label.unit)};
   }
   const auto used = places_used(guess.mappings, names);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].is_text || std::ranges::count(used, i) > 0) continue;
-    if (auto question = question_about(columns[i])) guess.questions.push_back(std::move(*question));
+    auto question = question_about(columns[i]);
+    if (!question) question = question_about_torque(columns[i]);
+    if (question) guess.questions.push_back(std::move(*question));
   }
   return guess;
 }

@@ -38,6 +38,7 @@ struct ColumnGuess {
   ColumnMappings mappings;         ///< those given, and those guessed
   std::vector<std::string> notes;  ///< a sentence on each quantity that several columns may be, and
                                    ///< each unit that is assumed
+  std::vector<std::string> warnings;  ///< a sentence on a torque that its unit alone tells
   /// The columns that may be a quantity, where several may.
   std::map<std::string, std::vector<std::string>> ambiguous;
   std::vector<ColumnQuestion> questions;  ///< on columns that are nothing yet
@@ -47,7 +48,8 @@ struct ColumnGuess {
 /// without units (the standard names before others in use: t, tau, theta, omega, accelerometer,
 /// ..., and German and French ones: measured/files/column_words.hpp) and their units, which must be
 /// the quantity's; one that is not told is taken for SI. A quantity that several columns may be is
-/// left out, and noted.
+/// left out, and noted. Where no name is that of the torque, the only column in a unit of it is,
+/// with a warning, unless its name says that it is another one: "load torque".
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given);
 
 }  // namespace flexarm::measured

@@ -142,6 +142,12 @@ std::string standard_name(std::string_view name) {
   }
 }
 
+bool is_doubtful_place(std::string_view standard_name) {
+  constexpr double kFarthest_m = 5.0;
+  const auto sensor = sensor_of(standard_name);
+  return sensor && sensor->kind == arm::SensorKind::strain && sensor->position_m >= kFarthest_m;
+}
+
 std::optional<arm::Sensor> sensor_of(std::string_view standard_name) {
   if (standard_name == kTime || standard_name == kTorque) return std::nullopt;
   return arm::parse_sensor(standard_name);
@@ -181,6 +187,12 @@ bool repeats_conversion(std::string_view standard_name, std::string_view unit, d
   constexpr double kAlike = 0.01;
   constexpr double kTwoDigits = 0.05;  // 1.05 as 1.1
   const double own = conversion_of(standard_name, unit).value_or(1.0);
+  if (own != 1.0 && std::abs(std::abs(scale) * own - 1.0) < kAlike) {
+    throw InputError(fmt::format(
+        "scale = {0:.6g}: the inverse of the conversion of {1}, {2:.6g}, which is applied already; "
+        "leave it out if the numbers are in {1}; write unit {3} if they are in {3}",
+        scale, unit, own, si_unit_of(standard_name)));
+  }
   const double off = std::abs(std::abs(scale) / own - 1.0);
   if (own == 1.0 || off > kTwoDigits) return false;
   if (off < kAlike) return true;
@@ -228,7 +240,7 @@ ColumnMappings standard_mapping(const std::string& header) {
   if (name.unit.empty() || !header.ends_with(']')) return {};
   try {
     const std::string quantity = standard_name(name.base);
-    if (!unit_of(quantity, name.unit)) return {};
+    if (!unit_of(quantity, name.unit) || is_doubtful_place(quantity)) return {};
     return {{quantity, {header, name.unit, 1.0}}};
   } catch (const InputError&) {
     return {};

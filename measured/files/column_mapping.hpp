@@ -36,6 +36,9 @@ using ColumnMappings = std::map<std::string, ColumnMapping>;
 /// names allowed for any other.
 std::string standard_name(std::string_view name);
 
+/// Whether it is a gauge at 5 m or beyond, where "strain@50" is in mm more often than in m.
+bool is_doubtful_place(std::string_view standard_name);
+
 /// The sensor of a standard name; empty for "time" and "torque".
 std::optional<arm::Sensor> sensor_of(std::string_view standard_name);
 
@@ -58,7 +61,8 @@ ColumnMappings mapping_by_header(const ForeignColumn& column, const ColumnMappin
 
 /// Whether a scale beside a unit is that unit's own conversion, to within 1 % and but for its sign,
 /// so that it would be applied twice: pi/180 beside deg. Throws InputError for one that is up to 5
-/// % off, as a conversion of two digits or with a correction is: 0.0171 beside deg.
+/// % off, as a conversion of two digits or with a correction is: 0.0171 beside deg; and for the
+/// inverse of the conversion, 180/pi beside deg.
 bool repeats_conversion(std::string_view standard_name, std::string_view unit, double scale);
 
 /// Whether numbers in the unit are known in SI without a scale; so is an empty one, which is SI.

@@ -1,7 +1,7 @@
 #include "measured/files/column_name.hpp"
 
-#include "arm/number.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/name_change.hpp"
 #include "measured/files/unit_spelling.hpp"
 
 #include <algorithm>
@@ -74,27 +74,6 @@ string_view without_in(string_view base) {
   return trimmed(base);
 }
 
-/// The end of the number at `begin`, "100", "0.01", "1e-3", "-3"; `begin` without one.
-std::size_t number_end(string_view text, std::size_t begin) {
-  constexpr std::size_t kLongest = 24;
-  const string_view may_be = text.substr(begin, kLongest);
-  std::size_t size = std::min(may_be.find_first_not_of("0123456789.+-eE"), may_be.size());
-  while (size > 0 && !arm::parse_number<double>(may_be.substr(0, size))) --size;
-  return begin + size;
-}
-
-bool is_name_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-/// Whether an x multiplies: it stands alone.
-bool is_times(string_view text, std::size_t at) {
-  if (text[at] == '*') return true;
-  const bool is_x = text[at] == 'x' || text[at] == 'X';
-  return is_x && (at == 0 || !is_name_letter(text[at - 1])) &&
-         (at + 1 == text.size() || !is_name_letter(text[at + 1]));
-}
-
 }  // namespace
 
 std::string canonical_unit(string_view unit) {
@@ -133,32 +112,6 @@ ColumnName split_column_name(string_view header) {
     return {std::string(without_in(text.substr(0, at))), std::move(unit)};
   }
   return {std::string(text), ""};
-}
-
-std::optional<NameFactor> factor_in(string_view name) {
-  const std::string text = in_plain_signs(name);
-  const auto behind_blanks = [&](std::size_t at) {
-    return std::min(text.find_first_not_of(' ', at), text.size());
-  };
-  const auto between = [&](std::size_t begin, std::size_t end) {
-    return NameFactor{text.substr(begin, end - begin),
-                      std::string(trimmed(text.substr(0, begin) + text.substr(end)))};
-  };
-  const std::size_t in_front = number_end(text, 0);
-  const std::size_t sign = behind_blanks(in_front);
-  if (in_front > 0 && sign < text.size() && is_times(text, sign)) return between(0, sign + 1);
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool is_divided =
-        text[at] == '/' && at > 0 && (text[at - 1] < '0' || text[at - 1] > '9');  // no 1/2
-    if (!is_divided && text[at] != '^' && !is_times(text, at)) continue;
-    const std::size_t begin = behind_blanks(at + 1);
-    const std::size_t end = number_end(text, begin);
-    constexpr string_view kBehind = " )]},_";
-    const bool ends = end == text.size() || kBehind.find(text[end]) != string_view::npos;
-    const auto number = arm::parse_number<double>(string_view(text).substr(begin, end - begin));
-    if (ends && number && *number != 0.0 && *number != 1.0) return between(at, end);
-  }
-  return std::nullopt;
 }
 
 }  // namespace flexarm::measured

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,16 +20,5 @@ struct ColumnName {
 /// slash between blanks, or, when it is a known one, after the last underscores or blanks. In
 /// brackets it may follow a word and "in", as in "angle (Theta in rad)"; "data(:,1)" has none.
 ColumnName split_column_name(std::string_view header);
-
-/// A factor that a name tells, and the name without it.
-struct NameFactor {
-  std::string factor;  ///< "*100"
-  std::string rest;    ///< "Angle"
-};
-
-/// The factor in a name, "Angle*100", "deg x 10", "tau/10", "1e3*t", or a power, "theta^2"; nothing
-/// in a name without. Whether the numbers were multiplied by it, or are to be, the name leaves
-/// open.
-std::optional<NameFactor> factor_in(std::string_view name);
 
 }  // namespace flexarm::measured

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 
 namespace flexarm::measured {
@@ -97,6 +98,18 @@ constexpr Word kVoltageWords[] = {"voltage", "motorvoltage", "outputvoltage", "a
                                   // French
                                   "tension", "tensionmoteur"};
 
+/// Words of torques that are not the motor's, or not as it acts; whole ones, and their beginnings.
+constexpr Word kOtherTorques[] = {"max", "min", "ref", "std", "abs", "err", "lim", "neg", "rate"};
+constexpr Word kOtherTorqueStems[] = {"maxim", "minim", "refer", "stdev", "absol", "error", "limit",
+                                      "negat", "deriv", "inverted", "inverse", "offset", "bias",
+                                      "noise", "ripple", "bend", "root", "clamp", "fric", "disturb",
+                                      "load", "gravi", "energ",
+                                      // German
+                                      "bieg", "wurzel", "einspann", "grenz", "fehler", "rausch",
+                                      "reib", "stoer", "last", "invertiert",
+                                      // French
+                                      "flexion", "encastr", "bruit", "frott", "perturb", "resist"};
+
 constexpr string_view kLengths[] = {"m", "mm", "cm", "um", "inch"};
 constexpr string_view kStrains[] = {"1", "ustrain", "mstrain", "%", "V", "mV", "mV/V"};
 constexpr string_view kCurrents[] = {"A", "mA"};
@@ -142,6 +155,27 @@ std::span<const QuantityWords> quantity_words() {
 
 std::span<const OpenWords> open_words() {
   return kOpen;
+}
+
+std::string other_torque_word(string_view name) {
+  const auto is_lower = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
+  for (std::size_t begin = 0; begin < name.size();) {
+    std::size_t end = begin;
+    while (end < name.size() && (is_lower(name[end]) || is_upper(name[end]) ||
+                                 static_cast<unsigned char>(name[end]) >= 0x80U)) {
+      ++end;
+      if (end < name.size() && is_lower(name[end - 1]) && is_upper(name[end])) break;
+    }
+    const string_view word = name.substr(begin, end - begin);
+    const std::string letters = plain_letters(word);
+    const bool is_other = std::ranges::count(kOtherTorques, string_view(letters)) > 0 ||
+                          std::ranges::any_of(kOtherTorqueStems,
+                                              [&](Word stem) { return letters.starts_with(stem); });
+    if (is_other) return std::string(word);
+    begin = std::max(end, begin + 1);
+  }
+  return "";
 }
 
 bool is_holder(string_view field) {

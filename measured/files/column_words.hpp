@@ -29,6 +29,10 @@ struct OpenWords {
 
 std::span<const OpenWords> open_words();
 
+/// The word of a name that says that a torque is not that of the motor, "limit" of "torque limit";
+/// empty in a name without.
+std::string other_torque_word(std::string_view name);
+
 /// Whether a field holds a signal and says nothing of it: "torque.signals.values" is "torque".
 bool is_holder(std::string_view field);
 

@@ -158,6 +158,7 @@ class ResponseMaker {
     require_unit_of_response(*first);
     const double radian = is_polar ? radians_in(*second) : 1.0;
     std::vector<std::size_t> lines = lines_of(made.columns);
+    std::size_t no_coherences = 0;
     for (const std::size_t line : lines) {
       const double a = value(*first, line);
       const double b = value(*second, line);
@@ -169,7 +170,14 @@ class ResponseMaker {
                                        : std::complex<double>(a, b));
       const double coherent =
           coherence ? value(*coherence, line) * (coherence->unit == "%" ? 0.01 : 1.0) : kUnknown;
-      made.coherence.push_back(coherent > 0.0 && coherent <= 1.0 ? coherent : kUnknown);
+      const bool is_coherence = coherent > 0.0 && coherent <= 1.0;
+      made.coherence.push_back(is_coherence ? coherent : kUnknown);
+      if (coherence && !is_coherence) ++no_coherences;
+    }
+    if (no_coherences > 0) {
+      note(fmt::format("{} of {} coherences of {} are not known: must be above 0, and at most {}",
+                       no_coherences, lines.size(), shown(*coherence),
+                       coherence->unit == "%" ? "100 %" : "1"));
     }
     return made;
   }

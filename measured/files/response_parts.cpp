@@ -1,5 +1,6 @@
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
+#include "measured/files/name_change.hpp"
 #include "measured/files/response_columns.hpp"
 #include "measured/files/response_unit.hpp"
 #include "measured/files/unit_spelling.hpp"
@@ -32,6 +33,8 @@ constexpr string_view kCoherenceWords[] = {"coh", "coherence", "kohaerenz", "gam
 constexpr string_view kFillers[] = {"part", "of", "log", "lin", "linear", "teil", "partie"};
 constexpr string_view kSquareWords[] = {"squared", "quadrat", "sq"};
 constexpr string_view kLagWords[] = {"lag", "lags", "lagging"};
+constexpr string_view kInverseWords[] = {"inverse", "inv", "reciprocal", "kehrwert"};
+constexpr string_view kConjugateWords[] = {"conj", "conjugate", "konjugiert", "conjugue"};
 constexpr string_view kFrequencyWords[] = {"f",           "freq",     "freqs",     "frequency",
                                            "frequencies", "frequenz", "frequence", "hz",
                                            "hertz",       "xvalue"};
@@ -137,8 +140,37 @@ string_view field_of(const ForeignTable& table, string_view name) {
   return is_field ? name.substr(point + 1) : name;
 }
 
-std::string fault_of_factor(const NameFactor& factor) {
-  return fmt::format("its name has {}; write the numbers without it", factor.factor);
+/// The number or the sign that the name of a part has; functions and marks belong to the name of
+/// the response: abs(H1), H1*.
+std::optional<NameChange> change_of_part(string_view name) {
+  auto change = change_in(name);
+  const bool is_of_numbers =
+      change && (change->kind == ChangeKind::factor || change->kind == ChangeKind::number ||
+                 change->kind == ChangeKind::sign);
+  if (!is_of_numbers) change.reset();
+  return change;
+}
+
+std::string fault_of_change(const NameChange& change) {
+  return fmt::format("its name has {}; write the numbers without it", change.mark);
+}
+
+/// Whether the name has a torque over a sensor, "Tau/Theta Magnitude".
+bool is_input_over_output(string_view name, const std::vector<NameWord>& words) {
+  const auto is_word_of = [](string_view letters, bool is_torque) {
+    return std::ranges::any_of(quantity_words(), [&](const QuantityWords& entry) {
+      return entry.quantity != "time" && (entry.quantity == "torque") == is_torque &&
+             is_among(entry.words, letters);
+    });
+  };
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    const string_view between = name.substr(words[i].end, words[i + 1].begin - words[i].end);
+    if (between.find('/') != string_view::npos && is_word_of(words[i].letters, true) &&
+        is_word_of(words[i + 1].letters, false)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The frequencies in a column that is called so and whose unit is one of frequencies or not told.
@@ -148,11 +180,11 @@ std::optional<PartColumn> frequencies_of(const ForeignTable& table, std::size_t 
   const string_view field = field_of(table, column.name);
   const auto logarithm = logarithm_of_frequency(field);
   const ColumnName name = split_column_name(logarithm ? string_view(logarithm->of) : field);
-  const auto factor = factor_in(name.base);
-  const std::string letters = plain_letters(factor ? factor->rest : name.base);
+  const auto change = change_of_part(name.base);
+  const std::string letters = plain_letters(change ? change->rest : name.base);
   PartColumn part{ResponsePart::frequency, "", place, column.unit};
   if (logarithm && !is_canonical_unit(part.unit)) part.unit = name.unit;
-  if (factor) part.fault = fault_of_factor(*factor);
+  if (change) part.fault = fault_of_change(*change);
   if (is_among(kRadianWords, letters) && (part.unit.empty() || part.unit == "rad/s")) {
     part.is_unit_assumed = part.unit.empty();
     part.unit = "rad/s";
@@ -201,8 +233,14 @@ std::string fault_of(ResponsePart part, string_view name, const std::vector<Name
   if (part == ResponsePart::phase && has(kLagWords)) {
     return "a lag, whose sign is the other one; negate it, and call it phase";
   }
-  const auto factor = factor_in(name);
-  return factor ? fault_of_factor(*factor) : "";
+  if (has(kInverseWords) || is_input_over_output(name, words)) {
+    return "an inverse of the response; write the response itself, of a sensor over a torque";
+  }
+  if (has(kConjugateWords)) {
+    return "a conjugate, whose phase has the other sign; write the response itself";
+  }
+  const auto change = change_of_part(name);
+  return change ? fault_of_change(*change) : "";
 }
 
 std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t place) {

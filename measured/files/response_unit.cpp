@@ -19,7 +19,7 @@ using std::string_view;
 
 /// Whether a response may be to something in the unit.
 bool is_input_unit(const std::string& unit) {
-  constexpr std::array<string_view, 7> kOthers = {"N", "mN", "kN", "V", "mV", "A", "mA"};
+  constexpr std::array<string_view, 8> kOthers = {"N", "mN", "kN", "MN", "V", "mV", "A", "mA"};
   return !unit.empty() && (is_unit_of("torque", unit) || std::ranges::count(kOthers, unit) > 0);
 }
 

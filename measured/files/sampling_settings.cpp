@@ -51,12 +51,12 @@ bool is_one_of(std::span<const string_view> names, string_view words) {
 }
 
 /// Letters and digits in lower case, "x0" of "X0"; empty for what is no such name.
-std::string name_of(string_view words) {
-  constexpr std::size_t kLongestName = 40;
+std::string setting_name_of(string_view words) {
+  constexpr std::size_t kLongestSetting = 40;
   const bool begins_with_letter =
       !words.empty() && ((words.front() >= 'a' && words.front() <= 'z') ||
                          (words.front() >= 'A' && words.front() <= 'Z'));
-  if (!begins_with_letter || words.size() > kLongestName) return "";
+  if (!begins_with_letter || words.size() > kLongestSetting) return "";
   const std::string base = split_column_name(words).base;
   std::string name = plain_letters(base);
   for (const char digit : {'0'}) {
@@ -113,7 +113,7 @@ std::optional<double> hertz_in(const std::string& unit) {
 /// One name and its value.
 void read_setting(string_view words, const Setting& setting, string_view unit_beside, int line,
                   SamplingSettings& settings) {
-  const std::string name = name_of(words);
+  const std::string name = setting_name_of(words);
   std::string unit = setting.unit;
   if (unit.empty()) unit = canonical_unit(unit_beside);
   if (unit.empty()) unit = split_column_name(words).unit;
@@ -134,11 +134,11 @@ void read_setting(string_view words, const Setting& setting, string_view unit_be
 }  // namespace
 
 bool is_period_name(string_view words) {
-  return is_one_of(kPeriodNames, name_of(words));
+  return is_one_of(kPeriodNames, setting_name_of(words));
 }
 
 bool is_start_name(string_view words) {
-  return is_one_of(kStartNames, name_of(words));
+  return is_one_of(kStartNames, setting_name_of(words));
 }
 
 SamplingSettings sampling_settings(std::span<const TextLine> lines, char separator, char decimal) {

@@ -33,11 +33,12 @@ constexpr double kPoundForce_N = 4.4482216152605;
 constexpr double kInch_m = 0.0254;
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-constexpr std::array<OtherUnit, 21> kOtherUnits = {{
+constexpr std::array<OtherUnit, 22> kOtherUnits = {{
     {"s", "ns", 1e-9},
     {"s", "min", 60.0},
     {"N m", "N cm", 1e-2},
     {"N m", "kN m", 1e3},
+    {"N m", "MN m", 1e6},
     {"N m", "kgf cm", kStandardGravity_m_per_s2 * 1e-2},
     {"N m", "lbf in", kPoundForce_N * kInch_m},
     {"N m", "lbf ft", kPoundForce_N * 12.0 * kInch_m},

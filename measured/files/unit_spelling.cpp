@@ -52,6 +52,7 @@ const std::vector<UnitWord>& unit_words() {
       {"N", {"newton", "newtons"}},
       {"mN", {"millinewton", "millinewtons"}},
       {"kN", {"kilonewton", "kilonewtons"}},
+      {"MN", {"meganewton", "meganewtons"}},
       {"1", {"dimensionless"}},
       {"ustrain", {"ue", "ustrains", "microstrain", "microstrains"}},
       {"mstrain", {"millistrain"}},
@@ -81,6 +82,7 @@ const std::vector<CompoundUnit>& compound_units() {
       {"N mm", {{{"N", 1}, {"mm", 1}}, {{"mN", 1}, {"m", 1}}}, {"Nmm", "mNm"}},
       {"N cm", {{{"N", 1}, {"cm", 1}}}, {"Ncm"}},
       {"kN m", {{{"kN", 1}, {"m", 1}}}, {"kNm"}},
+      {"MN m", {{{"MN", 1}, {"m", 1}}}, {"MNm"}},
       {"kgf cm", {}, {"kgfcm", "kgf*cm", "kgf-cm", "kgf.cm", "kgcm", "kg*cm", "kg-cm", "kg.cm"}},
       {"lbf in",
        {},
@@ -185,6 +187,21 @@ string_view find_in(const Spellings& spellings, string_view typed) {
   return found == spellings.end() ? string_view{} : found->second;
 }
 
+/// Whether a word of the text is a symbol behind a capital M, which is mega and not folded to
+/// milli. MS and MV stand in headers that are all in capitals.
+bool has_mega(string_view text) {
+  constexpr std::array<string_view, 9> kMegaSymbols = {"N", "NM", "Nm",     "rad", "s",
+                                                       "m", "g",  "strain", "deg"};
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = begin;
+    while (end < text.size() && is_unit_letter(text[end])) ++end;
+    const string_view word = text.substr(begin, end - begin);
+    if (word.starts_with('M') && std::ranges::count(kMegaSymbols, word.substr(1)) > 0) return true;
+    begin = std::max(end, begin + 1);
+  }
+  return false;
+}
+
 /// Words between separators, with their powers.
 class FactorReader {
  public:
@@ -286,7 +303,8 @@ std::string find_unit(string_view text) {
   const std::string plain = in_plain_signs(typed);
   string_view unit = find_spelled(plain, as_written);
   // A capital tells S (siemens), G (gauss) or M apart: units of one letter are not folded.
-  if (unit.empty() && plain.size() != 1) unit = find_spelled(in_lower_case(plain), in_lower);
+  if (unit.empty() && plain.size() != 1 && !has_mega(plain))
+    unit = find_spelled(in_lower_case(plain), in_lower);
   return std::string(unit);
 }
 

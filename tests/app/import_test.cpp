@@ -228,7 +228,8 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
           "--column torqe=Room: torqe: unknown (did you mean "
           "torque?)");
   refused({"--column", "torque=Room:V"},
-          "--column torque=Room:V: unit = V: not one of N m, N mm, N cm, kN m, kgf cm, lbf in, lbf "
+          "--column torque=Room:V: unit = V: not one of N m, N mm, N cm, kN m, MN m, kgf cm, lbf "
+          "in, lbf "
           "ft, ozf in; give scale in N m per V");
   refused({"--column", "torque=Room:V:x"},
           "--column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "

@@ -169,7 +169,8 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "\"N m\" } }"},
     {"ForeignUnitWithoutScale",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", unit = \"V\" } }\n",
-     "7: run.columns.torque.unit = V: not one of N m, N mm, N cm, kN m, kgf cm, lbf in, lbf ft, "
+     "7: run.columns.torque.unit = V: not one of N m, N mm, N cm, kN m, MN m, kgf cm, lbf in, lbf "
+     "ft, "
      "ozf "
      "in; give scale in N m per V"},
     {"NameBesideExpression",

@@ -54,6 +54,17 @@ TEST(UnitSpelling, WhatIsNoUnitIsNone) {
   }
 }
 
+TEST(UnitSpelling, ACapitalMIsMega) {
+  EXPECT_EQ(find_unit("MNm"), "MN m");
+  EXPECT_EQ(find_unit("MN m"), "MN m");
+  EXPECT_EQ(find_unit("MN"), "MN");
+  EXPECT_EQ(scale_of_unit("torque", "MNm"), 1e6);
+  for (const char* text : {"MNM", "Mrad", "Mrad/s", "Mm", "Ms"})
+    EXPECT_EQ(find_unit(text), "") << text;
+  EXPECT_EQ(find_unit("Meters"), "m");
+  EXPECT_EQ(find_unit("Min"), "min");
+}
+
 TEST(UnitSpelling, UnitsStandInHeadersInManyWays) {
   const auto expect = [](const char* header, const char* base, const char* unit) {
     const ColumnName name = split_column_name(header);

@@ -15,6 +15,7 @@
 #include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/text_lines.hpp"
+#include "measured/files/thousands_marks.hpp"
 #include "measured/files/time_stamp.hpp"
 #include "measured/files/unit.hpp"
 #include "measured/files/unit_spelling.hpp"
@@ -296,6 +297,7 @@ class TableReader {
     assume(fmt::format("numbers have a decimal {}", decimal() == ',' ? "comma" : "point"));
     ColumnBuilder builder(columns_, decimal());
     for (const std::size_t column : beside_) builder.take_as_text(column);
+    ThousandsMarks marks(reading_.cells, reading_.dialect);
     LineReader lines(text_);
     TextLine line;
     TextLine short_row;
@@ -306,13 +308,20 @@ class TableReader {
         short_row = line;  // no fault yet, if it is the last one
       } else {
         require_cells(line);
-        builder.add_row(splitter_.split(line.text).first(reading_.cells), line.number);
+        const auto cells = splitter_.split(line.text).first(reading_.cells);
+        builder.add_row(cells, line.number);
+        marks.add_row(cells, line.number);
       }
     }
     if (short_row.number > 0) {
       assume(fmt::format("last line {} incomplete and ignored", short_row.number));
     }
     table_ = builder.finish();
+    if (const auto mark = marks.doubtful()) {
+      line_ = mark->line;
+      throw InputError(fmt::format("column {} = {}: {}", arm::shown(columns_[mark->column].name),
+                                   arm::shown(mark->cell), mark->fault));
+    }
     std::ranges::move(table_.assumptions, std::back_inserter(assumptions_));
   }
 

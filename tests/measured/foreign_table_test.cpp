@@ -228,6 +228,17 @@ const std::vector<Mistake> kForeignTableMistakes = {
      "2: column u = 1.000,5: has thousands separators; write the number without them"},
     {"ThousandsApostrophes", "t;u;v\n0;1'000.5;1\n1;1'001.5;1\n",
      "2: column u = 1'000.5: has thousands separators; write the number without them"},
+    {"ThousandsOfWholeNumbers", "t\tu\n0\t-512\n2\t987\n4\t-1,032\n6\t1,040\n",
+     "4: column u = -1,032: has thousands separators; write the number without them"},
+    {"ThousandsOfWholeNumbersWithPoints", "t;u\n0;0\n2;987\n4;1.032\n6;12.040\n",
+     "4: column u = 1.032: has thousands separators; write the number without them"},
+    {"QuotedThousands", "t,u,y\n0,1,5\n2,1,\"1,030\"\n4,1,\"1,042\"\n",
+     "3: column y = 1,030: has thousands separators; write the number without them"},
+    {"ThousandsInEachColumn", "t\tu\n0\t0\n2,000\t60,000\n4,000\t-60,000\n",
+     "3: column t = 2,000: has thousands separators; write the number without them"},
+    {"ThousandsOrDecimals", "t;u\n0;1,234\n1;2,345\n2;1,250\n",
+     "2: column u = 1,234: may be 1234 with a thousands separator or a decimal; write 1234 or "
+     "1,2340 (all such numbers of the column)"},
 };
 
 class ForeignTableMistake : public testing::TestWithParam<Mistake> {};
@@ -238,6 +249,19 @@ TEST_P(ForeignTableMistake, GivesOneLineWithPlaceReasonAndRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(, ForeignTableMistake, testing::ValuesIn(kForeignTableMistakes),
                          name_of_mistake);
+
+/// Three decimals everywhere are no thousands where a number below 1, another count of decimals, or
+/// a whole number from 1000 on says so; nor are points between commas.
+TEST(ForeignTable, NumbersOfThreeDecimalsAreNoThousands) {
+  for (const char* text : {"t;u\n0,000;1,234\n1,000;1,250\n", "t;u\n0;0,123\n1;1,250\n2;12,000\n",
+                           "t;u\n0;1,250\n0,5;12,000\n", "t;u\n998;1,250\n1000;2\n1002;1,500e0\n",
+                           "t,u\n1,1.250\n2,3\n"}) {
+    const auto table = parse_foreign_table(text, "log");
+    EXPECT_THAT(table.columns[1].values, Contains(testing::AnyOf(1.25, 1.234))) << text;
+  }
+  const auto table = parse_foreign_table("t;u\n0;998\n1;1000\n2;1,250\n", "log");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(998.0, 1000.0, 1.25));
+}
 
 TEST(ForeignTable, WhatIsNoTextIsRefused) {
   for (const std::string& bytes : {std::string("t,u\n0,1\0\n1,2\n", 13),

@@ -30,7 +30,7 @@ using Names = std::vector<std::string>;
 constexpr std::size_t kFewestNames = 3;
 
 /// Whether both are units of one quantity.
-bool are_alike(string_view unit, string_view other) {
+bool are_of_one_quantity(string_view unit, string_view other) {
   const auto is_of = [](string_view si_unit, string_view name) {
     const auto units = units_for(si_unit);
     return std::ranges::count(units, name, &Unit::name) > 0 ||
@@ -160,9 +160,9 @@ class HeaderReader {
     column.name = name;
     column.unit = canonical_unit(unit);
     const std::string own = split_column_name(name).unit;
-    const bool is_fault = is_canonical_unit(own) && is_canonical_unit(column.unit) &&
-                          own != column.unit &&
-                          (name.find('[') != std::string::npos || are_alike(own, column.unit));
+    const bool is_fault =
+        is_canonical_unit(own) && is_canonical_unit(column.unit) && own != column.unit &&
+        (name.find('[') != std::string::npos || are_of_one_quantity(own, column.unit));
     if (is_fault) {
       throw InputError(
           fmt::format("column {}: in {} by its name, in {} by the line of units; must "

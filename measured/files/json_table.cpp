@@ -8,6 +8,7 @@
 #include "measured/files/json_times.hpp"
 #include "measured/files/json_units.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/signal_factors.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -253,6 +254,11 @@ class JsonTableBuilder {
         out_.left_out.push_back(fmt::format("{}: a single value", singles_.back()));
         if (value.is_number()) {
           numbers_.push_back({key, value.get<double>(), out_.left_out.back()});
+          // Settings of named signals stand in an object of their own.
+          const bool is_beside =
+              path.ends_with(" settings") || std::ranges::any_of(object, is_list);
+          const std::string sentence = unapplied_factor(singles_.back(), value.get<double>());
+          if (is_beside && !sentence.empty()) out_.table.assumptions.push_back(sentence);
         }
       }
     }

@@ -151,6 +151,14 @@ TEST(JsonTableTest, UnitsBesideListsAreThoseOfTheLists) {
               ms_and_deg);
 }
 
+TEST(JsonTableTest, AScaleBesideAListIsSaidToBeUnapplied) {
+  const auto read = parse_json_table(
+      R"({"tau": {"value": [1, 2], "scale": 2, "offset": 0}, "gain": 3})", "a.json");
+  EXPECT_THAT(read.table.assumptions,
+              ElementsAre("tau.scale = 2 is not applied to the signal beside it; if the numbers "
+                          "lack it, state it as SCALE in --column"));
+}
+
 TEST(JsonTableTest, AUnitThatHasNoPlaceIsRefused) {
   EXPECT_THAT(refusal_of(R"({"unit": "deg", "hub_angle": [1, 2], "strain@0": [1, 2]})"),
               HasSubstr("a.json: unit = deg: stands beside several lists"));

@@ -246,7 +246,7 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
       const std::string sentence = unapplied_factor(variable.name, one->values.front());
       if (is_beside && !sentence.empty()) file.table.assumptions.push_back(sentence);
       const std::string key = variable.name.substr(variable.name.rfind('.') + 1);
-      singles.push_back({key, one->values.front(), phrase});
+      singles.push_back({key, fmt::format("{}", one->values.front()), phrase});
       single_units.push_back({"", key, names.keyed_units().of(variable.name)});
     }
     // What structures say of their signals is no signal.

@@ -280,6 +280,25 @@ class TableReader {
   int line_ = 1;
 };
 
+/// Whether the name of a column tells a quantity.
+bool names_quantity(const ForeignColumn& column) {
+  const std::string name = plain_letters(quantity_name(column.name));
+  return std::ranges::any_of(quantity_words(), [&](const QuantityWords& words) {
+    return std::ranges::count(words.words, name) > 0;
+  });
+}
+
+/// The first text with a digit, of a column of texts that is by its name numbers.
+std::optional<std::size_t> row_of_no_number(const ForeignColumn& column) {
+  if (!column.is_text() || !names_quantity(column)) return std::nullopt;
+  const auto found = std::ranges::find_if(column.texts, [](const std::string& cell) {
+    return cell.find_first_of("0123456789") != std::string::npos && !parse_cell(cell, '.') &&
+           !parse_time_stamp(cell);
+  });
+  if (found == column.texts.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - column.texts.begin());
+}
+
 }  // namespace
 
 bool is_time_column(const ForeignColumn& column) {
@@ -301,14 +320,20 @@ bool ForeignColumn::holds_nothing() const {
 std::vector<std::string> stray_texts(const ForeignTable& table) {
   std::vector<std::string> sentences;
   for (const auto& column : table.columns) {
-    if (column.stray.empty()) continue;
+    const bool is_alone = !column.stray.empty();
+    const auto row = is_alone ? column.stray_row : row_of_no_number(column);
+    if (!row) continue;
     const std::string place = table.line_of_row.empty()
-                                  ? fmt::format("sample {}", column.stray_row + 1)
-                                  : fmt::format("line {}", line_of(table, column.stray_row));
-    sentences.push_back(
-        fmt::format("{} = {} in {}: no number, as its other cells are; write the number, or leave "
-                    "the cell empty for a missing sample",
-                    arm::shown(column.name), arm::shown(column.stray), place));
+                                  ? fmt::format("sample {}", *row + 1)
+                                  : fmt::format("line {}", line_of(table, *row));
+    sentences.push_back(fmt::format(
+        "{} = {} in {}: no number, {}", arm::shown(column.name), arm::shown(column.texts[*row]),
+        place,
+        is_alone
+            ? "as its other cells are; write the number, or leave the cell empty for a missing "
+              "sample"
+            : "nor are other cells of the column; write them as numbers, with the decimal mark "
+              "of the other columns"));
   }
   return sentences;
 }

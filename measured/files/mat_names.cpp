@@ -266,7 +266,8 @@ const MatStrings* MatNames::list_beside(const Lists& lists, string_view path, st
   const MatStrings* found = nullptr;
   for (const auto* list : beside->second) {
     if (list->size() != count || count < 2) continue;
-    if (found != nullptr) return nullptr;
+    // "colheaders" and "textdata" of importdata may be the same texts.
+    if (found != nullptr && *found != *list) return nullptr;
     found = list;
   }
   return found;

@@ -16,7 +16,7 @@ std::string take_out_over_range(ForeignColumn& column, const std::string& what) 
   std::size_t count = 0;
   double first = 0.0;
   for (double& value : column.values) {
-    if (!is_over_range(value)) continue;
+    if (!is_over_range(value) && !std::isinf(value)) continue;
     if (count++ == 0) first = value;
     value = kUnknown;
   }

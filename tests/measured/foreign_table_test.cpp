@@ -352,7 +352,8 @@ TEST(ForeignTable, AnotherNameForAColumnIsShownWithoutControlCharacters) {
 
 TEST(ForeignTable, SignsOfAMissingNumberMayBeFirst) {
   for (const char* sign :
-       {"#NUM!", "None", "-1.#IND00", "1.#QNAN0", "#DIV/0!", "<NA>", "NaT", "k.A."}) {
+       {"#NUM!", "None", "-1.#IND00", "1.#QNAN0", "#DIV/0!", "<NA>", "NaT", "k.A.", ".", "\\N",
+        "nil", "(null)", "Missing", "invalid", "No Data", "****"}) {
     const auto table = parse_foreign_table(
         std::string("t;u;y\n0;1;") + sign + "\n1;1;3\n2;1;" + sign + "\n", "log");
     ASSERT_FALSE(table.columns[2].is_text()) << sign;
@@ -360,6 +361,42 @@ TEST(ForeignTable, SignsOfAMissingNumberMayBeFirst) {
     EXPECT_EQ(table.columns[2].values[1], 3.0) << sign;
     EXPECT_TRUE(stray_texts(table).empty());
   }
+}
+
+TEST(ForeignTable, SignsOfANumberBeyondTheRangeAreInfinite) {
+  for (const char* sign : {"OVLD", "OL", "-OL", "Overflow", "Overrange", "+OVR", "1.#INF",
+                           "-1.#INF00", "\xe2\x88\x9e", "inf", "-Inf"}) {
+    const auto table = parse_foreign_table(
+        std::string("t;u;y\n0;1;") + sign + "\n1;1;3\n2;1;" + sign + "\n", "log");
+    ASSERT_FALSE(table.columns[2].is_text()) << sign;
+    EXPECT_TRUE(std::isinf(table.columns[2].values[0])) << sign;
+    EXPECT_EQ(table.columns[2].values[1], 3.0) << sign;
+  }
+}
+
+/// Durations as MATLAB writes them in tables.
+TEST(ForeignTable, CellsMayHaveTheUnitOfTheirColumn) {
+  const auto table = parse_foreign_table(
+      "Time,torque [N m],y,z,gear\n0 sec,0.5 Nm,1,1,2 up\n0.002 sec,,2,1,3 V\n0.004 "
+      "sec,1.5Nm,3,1,4\n",
+      "log");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 0.002, 0.004));
+  EXPECT_EQ(table.columns[0].unit, "s");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(0.5, testing::IsNan(), 1.5));
+  EXPECT_EQ(table.columns[1].unit, "N m");
+  EXPECT_TRUE(table.columns[4].is_text());
+  EXPECT_THAT(table.assumptions, Contains("cells of Time have the unit s"));
+  const auto other = parse_foreign_table("t,torque [N m],y\n0,6%,1\n1,5%,2\n", "log");
+  EXPECT_TRUE(other.columns[1].is_text());
+}
+
+TEST(ForeignTable, TextsInAColumnOfAQuantityAreNamed) {
+  const auto table = parse_foreign_table(
+      "t;torque [N m];angle;note\n0;0,000;1.5;run 1\n1;0,0600;1.5;run 2\n", "log");
+  EXPECT_THAT(stray_texts(table),
+              ElementsAre("torque [N m] = 0,000 in line 2: no number, nor are other cells of the "
+                          "column; write them as numbers, with the decimal mark of the other "
+                          "columns"));
 }
 
 TEST(ForeignTable, ATextAmongNumbersIsNamed) {

@@ -166,6 +166,15 @@ TEST_F(MatUnits, AListOfUnitsBesideAListOfNamesIsTheirs) {
                       column(torques_N_m()), text("theta"), text("deg"), column(angles_rad())})}}));
 }
 
+TEST_F(MatUnits, TwoListsOfTheSameNamesAreOne) {
+  const auto names = [] { return cells(1, 2, {text("torque [N m]"), text("theta [deg]")}); };
+  const auto file = read(
+      {{"A",
+        structures({{{"data", matrix(false)}, {"textdata", names()}, {"colheaders", names()}}})}});
+  EXPECT_THAT(names_in(file), ElementsAre("torque [N m]", "theta [deg]"));
+  EXPECT_EQ(file.table.columns[1].unit, "deg");
+}
+
 TEST_F(MatUnits, AListOfUnitsThatDoesNotFitIsRefused) {
   const auto refusal = [&](const std::vector<Field>& variables) {
     try {

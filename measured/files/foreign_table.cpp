@@ -4,7 +4,6 @@
 #include "measured/files/column_builder.hpp"
 #include "measured/files/column_guess.hpp"
 #include "measured/files/column_lookup.hpp"
-#include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
 #include "measured/files/instrument_head.hpp"
@@ -19,18 +18,15 @@
 #include "measured/files/thousands_marks.hpp"
 #include "measured/files/time_stamp.hpp"
 #include "measured/files/unit.hpp"
-#include "measured/files/unit_spelling.hpp"
 #include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace flexarm::measured {

@@ -242,7 +242,7 @@ class HeaderReader {
     auto& columns = header.columns;
     const auto row = splitter_.split(sample_[first_].text);
     if (columns.size() < 3 || !columns.back().name.empty() || row.back().empty()) return;
-    if (names_count(columns.front().name)) return;
+    if (names_count(columns.front().name) || parse_time_stamp(row.front())) return;
     const std::size_t cells =
         splitter_.split_names(without_comment_mark(sample_[head].text)).size();
     const auto numbers = numbers_of(0);

@@ -31,7 +31,7 @@ std::optional<std::pair<double, std::string>> number_and_unit(string_view cell, 
     const auto number = parse_cell(trimmed(cell.substr(0, size)), decimal);
     if (!number) continue;
     std::string unit = canonical_unit(trimmed(cell.substr(size)));
-    if (!is_canonical_unit(unit)) return std::nullopt;
+    if (unit.empty() || !is_canonical_unit(unit)) return std::nullopt;
     return std::pair{*number, std::move(unit)};
   }
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/delimited_line.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,21 @@ using arm::InputError;
 using std::string_view;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBeyond = std::numeric_limits<double>::infinity();
+
+/// The number and the known unit behind it, "0.002 sec" or "2ms".
+std::optional<std::pair<double, std::string>> number_and_unit(string_view cell, char decimal) {
+  constexpr std::size_t kLongest = 40;
+  if (cell.size() > kLongest) return std::nullopt;
+  for (std::size_t size = cell.size(); size > 0; --size) {
+    const auto number = parse_cell(trimmed(cell.substr(0, size)), decimal);
+    if (!number) continue;
+    std::string unit = canonical_unit(trimmed(cell.substr(size)));
+    if (unit.empty() || !is_canonical_unit(unit)) return std::nullopt;
+    return std::pair{*number, std::move(unit)};
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -46,7 +62,7 @@ void ColumnBuilder::add_cell(Column& column, string_view cell) const {
     values.push_back(*value);
     if (!std::isnan(*value)) column.kind = Kind::numbers;
   } else if (is_missing_number(cell)) {
-    values.push_back(kMissing);
+    values.push_back(is_over_range_sign(cell) && column.kind != Kind::stamps ? kBeyond : kMissing);
     if (column.kind == Kind::stamps) column.stamps.emplace_back();
   } else if (const auto number = parse_complex_cell(cell, decimal_);
              number && column.kind != Kind::stamps) {
@@ -120,6 +136,29 @@ void ColumnBuilder::convert_stamps() {
   }
 }
 
+void ColumnBuilder::take_unit_of_cells(Column& column) {
+  if (column.kind != Kind::texts) return;
+  std::string unit;
+  std::vector<double> values;
+  for (const string_view cell : column.column.texts) {
+    if (is_missing_number(cell)) {
+      values.push_back(is_over_range_sign(cell) ? kBeyond : kMissing);
+      continue;
+    }
+    const auto measured = number_and_unit(cell, decimal_);
+    if (!measured || (!unit.empty() && measured->second != unit)) return;
+    values.push_back(measured->first);
+    unit = measured->second;
+  }
+  if (unit.empty() || (!column.column.unit.empty() && column.column.unit != unit)) return;
+  column.column.texts.clear();
+  column.column.values = std::move(values);
+  column.column.unit = unit;
+  column.kind = Kind::numbers;
+  assumptions_.push_back(
+      fmt::format("cells of {} have the unit {}", arm::shown(column.column.name), unit));
+}
+
 void ColumnBuilder::find_stray(ForeignColumn& column) const {
   const auto is_text = [&](const std::string& cell) {
     return !is_missing_number(cell) && !parse_cell(cell, decimal_);
@@ -156,7 +195,10 @@ std::vector<ForeignColumn> ColumnBuilder::take_imaginary_parts() {
 
 ForeignTable ColumnBuilder::finish() {
   convert_stamps();
-  for (auto& column : columns_) find_stray(column.column);
+  for (auto& column : columns_) {
+    take_unit_of_cells(column);
+    find_stray(column.column);
+  }
   while (columns_.size() > 1 && columns_.back().kind == Kind::open &&
          columns_.back().column.name.starts_with("column ")) {
     columns_.pop_back();

@@ -22,11 +22,13 @@ class ColumnBuilder {
   /// A column of texts, whatever its cells are.
   void take_as_text(std::size_t column);
 
-  /// One cell a column; empty cells and signs of a missing number (NaN, NA, -, ...) are NaN. Throws
+  /// One cell a column; empty cells and signs of a missing number (NaN, NA, -, ...) are NaN, those
+  /// of a number beyond a range (OVLD, ...) infinite. Throws
   /// InputError for a cell that is no number in a column of numbers, and for thousands separators.
   void add_row(std::span<const std::string_view> cells, int line);
 
-  /// The table. A column of complex numbers becomes "real part of H", by the path H, and "imaginary
+  /// The table. A column of numbers that all have one unit behind them, "0.002 sec", is in this
+  /// unit. A column of complex numbers becomes "real part of H", by the path H, and "imaginary
   /// part of H" behind all others. Time stamps become seconds since the first one, completed by a
   /// column of dates where they have none; columns without names and without cells at the end are
   /// left out.
@@ -46,6 +48,7 @@ class ColumnBuilder {
   void add_cell(Column& column, std::string_view cell) const;
   void begin_texts(Column& column) const;
   void convert_stamps();
+  void take_unit_of_cells(Column& column);
   void find_stray(ForeignColumn& column) const;
   std::vector<ForeignColumn> take_imaginary_parts();
   const Column* dates_for_clocks() const;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <iterator>
+#include <string>
 
 namespace flexarm::measured {
 
@@ -14,14 +16,22 @@ using std::string_view;
 
 namespace {
 
-/// NaN as Microsoft's C library prints it in any number of digits: -1.#IND, 1.#QNAN0.
-bool is_printed_nan(string_view cell) {
+/// Whether the cell is one of the words and zeros: -1.#IND00, as Microsoft's C library prints NaN
+/// and infinity in any number of digits.
+bool is_printed_by_c(string_view cell, std::initializer_list<string_view> words) {
   if (cell.starts_with('-')) cell.remove_prefix(1);
-  for (const string_view front : {"1.#IND", "1.#QNAN", "1.#SNAN", "1,#IND", "1,#QNAN", "1,#SNAN"}) {
-    if (!cell.starts_with(front)) continue;
-    return cell.find_first_not_of('0', front.size()) == string_view::npos;
-  }
-  return false;
+  return std::ranges::any_of(words, [&](string_view front) {
+    return cell.starts_with(front) &&
+           cell.find_first_not_of('0', front.size()) == string_view::npos;
+  });
+}
+
+std::string cell_in_lower_case(string_view cell) {
+  std::string letters(cell);
+  std::ranges::transform(letters, letters.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return letters;
 }
 
 }  // namespace
@@ -173,13 +183,34 @@ std::optional<std::complex<double>> parse_complex_cell(string_view cell, char de
 }
 
 bool is_missing_number(string_view cell) {
-  constexpr std::array<string_view, 33> kSigns = {
-      "-",      "--",      "---",    "?",        "NA",       "N/A",     "n/a",
-      "na",     "n.a.",    "N.A.",   "n.d.",     "k.A.",     "k. A.",   "<NA>",
-      "NaT",    "None",    "none",   "null",     "NULL",     "Null",    "#N/A",
-      "#NV",    "#NUM!",   "#ZAHL!", "#REF!",    "#BEZUG!",  "#VALUE!", "#WERT!",
-      "#NAME?", "#DIV/0!", "#NULL!", "nan(ind)", "-nan(ind)"};
-  return cell.empty() || std::ranges::count(kSigns, cell) > 0 || is_printed_nan(cell);
+  constexpr std::array<string_view, 35> kSigns = {
+      ".",       "\\N",    "-",      "--",      "---",    "?",        "NA",
+      "N/A",     "n/a",    "na",     "n.a.",    "N.A.",   "n.d.",     "k.A.",
+      "k. A.",   "<NA>",   "NaT",    "None",    "none",   "null",     "NULL",
+      "Null",    "#N/A",   "#NV",    "#NUM!",   "#ZAHL!", "#REF!",    "#BEZUG!",
+      "#VALUE!", "#WERT!", "#NAME?", "#DIV/0!", "#NULL!", "nan(ind)", "-nan(ind)"};
+  constexpr std::array<string_view, 10> kWords = {"nil",    "(null)",   "missing", "invalid",
+                                                  "nodata", "no data",  "no_data", "bad",
+                                                  "fehlt",  "bad input"};
+  constexpr std::size_t kLongestWord = 9;
+  const bool is_filled = cell.size() > 1 && cell.find_first_not_of('*') == string_view::npos;
+  return cell.empty() || std::ranges::count(kSigns, cell) > 0 || is_filled ||
+         is_printed_by_c(
+             cell, {"1.#IND", "1.#QNAN", "1.#SNAN", "1,#IND", "1,#QNAN", "1,#SNAN", "1.#R"}) ||
+         (cell.size() <= kLongestWord &&
+          std::ranges::count(kWords, string_view(cell_in_lower_case(cell))) > 0) ||
+         is_over_range_sign(cell);
+}
+
+bool is_over_range_sign(string_view cell) {
+  constexpr std::array<string_view, 10> kWords = {
+      "ol",       "ovl",       "ovld",       "ovr",    "overload",
+      "overflow", "overrange", "over range", "ovrflw", "\xe2\x88\x9e"};
+  constexpr std::size_t kLongestWord = 11;
+  if (is_printed_by_c(cell, {"1.#INF", "1,#INF"})) return true;
+  if (cell.starts_with('+') || cell.starts_with('-')) cell.remove_prefix(1);
+  return cell.size() <= kLongestWord &&
+         std::ranges::count(kWords, string_view(cell_in_lower_case(cell))) > 0;
 }
 
 bool has_thousands_separators(string_view cell, char decimal) {
@@ -197,7 +228,7 @@ bool has_thousands_separators(string_view cell, char decimal) {
       const auto next = std::min(whole.find(mark), whole.size());
       const string_view group = whole.substr(0, next);
       fits = group.find_first_not_of(kDigits) == string_view::npos && !group.empty() &&
-             (is_first ? group.size() <= kGroup : group.size() == kGroup);
+             (is_first ? group.size() <= kGroup && group != "0" : group.size() == kGroup);
       joined += group;
       is_first = false;
       if (next == whole.size()) break;

@@ -59,8 +59,12 @@ std::optional<std::complex<double>> parse_complex_cell(std::string_view cell, ch
                                                        bool has_both = false);
 
 /// Whether the cell is empty or has what programs write in place of a number that there is not: NA,
-/// null, -, ...
+/// null, -, ..., a sign of a number out of range among them.
 bool is_missing_number(std::string_view cell);
+
+/// Whether the cell has what programs and instruments write for a number beyond their range: OVLD,
+/// OL, Overflow, 1.#INF, the sign of infinity.
+bool is_over_range_sign(std::string_view cell);
 
 /// Whether the cell is a number only with its thousands separators taken out: "1,234.5", "1'234",
 /// "1 234,5".

@@ -2,11 +2,13 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/json_times.hpp"
 #include "measured/files/mat_file.hpp"
 #include "measured/files/mat_names.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/record_export.hpp"
 #include "measured/files/response_unit.hpp"
+#include "measured/files/signal_factors.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -206,6 +208,8 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
   const std::vector<MatVariable> variables = gathered_records(std::move(all));
   const MatNames names(variables, file.left_out);
   const auto frequencies = frequencies_in(variables, names);
+  std::vector<JsonNumber> singles;
+  std::vector<JsonUnit> single_units;
   const std::size_t lines = frequencies ? frequencies->values.size() : 0;
   for (const auto& variable : variables) {
     if (is_description(variable.name)) continue;
@@ -233,10 +237,24 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
       }
       if (!signals.empty()) continue;
     }
+    std::string phrase = fmt::format("{}: no vector of numbers", variable.name);
+    if (const auto* one = std::get_if<MatMatrix>(&variable.value);
+        one != nullptr && one->values.size() == 1) {
+      const bool is_beside = std::ranges::any_of(variables, [&](const MatVariable& other) {
+        return is_large(other) && owner_of(other.name) == owner_of(variable.name);
+      });
+      const std::string sentence = unapplied_factor(variable.name, one->values.front());
+      if (is_beside && !sentence.empty()) file.table.assumptions.push_back(sentence);
+      const std::string key = variable.name.substr(variable.name.rfind('.') + 1);
+      singles.push_back({key, fmt::format("{}", one->values.front()), phrase});
+      single_units.push_back({"", key, names.keyed_units().of(variable.name)});
+    }
     // What structures say of their signals is no signal.
+    if (names.keyed_units().is_placed(variable.name)) continue;
     if (variable.name.find('.') != std::string::npos && !is_large(variable)) continue;
-    file.left_out.push_back(fmt::format("{}: no vector of numbers", variable.name));
+    file.left_out.push_back(std::move(phrase));
   }
+  if (file.responses.empty()) add_json_times(file.table, singles, single_units, file.left_out);
   if (!file.responses.empty()) {
     file.table.assumptions.push_back(
         fmt::format(fmt::runtime(frequencies->is_unit_told ? "{} holds frequencies in {}"

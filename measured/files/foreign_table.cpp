@@ -4,7 +4,6 @@
 #include "measured/files/column_builder.hpp"
 #include "measured/files/column_guess.hpp"
 #include "measured/files/column_lookup.hpp"
-#include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
 #include "measured/files/instrument_head.hpp"
@@ -12,24 +11,23 @@
 #include "measured/files/record_constants.hpp"
 #include "measured/files/sampling_settings.hpp"
 #include "measured/files/single_signal.hpp"
+#include "measured/files/table_header.hpp"
 #include "measured/files/table_reading.hpp"
 #include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
 #include "measured/files/text_lines.hpp"
+#include "measured/files/thousands_marks.hpp"
 #include "measured/files/time_stamp.hpp"
 #include "measured/files/unit.hpp"
-#include "measured/files/unit_spelling.hpp"
 #include "measured/files/universal_grid.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace flexarm::measured {
@@ -45,9 +43,6 @@ constexpr std::size_t kSample = 2000;
 bool is_passed_over(string_view line) {
   return is_blank_line(line) || is_comment(line);
 }
-
-/// A line of names in front of rows of more cells has at least so many, and half as many as cells.
-constexpr std::size_t kFewestNames = 3;
 
 /// Reads the table line by line, in the best reading of its first lines.
 class TableReader {
@@ -178,73 +173,15 @@ class TableReader {
                                  kMostRecordColumns));
   }
 
-  std::optional<std::vector<std::string>> names_in(string_view line) {
-    const auto cells = splitter_.split_names(without_comment_mark(line));
-    std::vector<std::string> names(cells.begin(), cells.end());
-    while (!names.empty() && names.back().empty()) names.pop_back();
-    join_date_and_time(names);
-    // Columns at the end may have no names, and separators at the ends of rows make one more.
-    const bool are_enough = names.size() + 1 >= reading_.cells ||
-                            (reading_.dialect.separator != ' ' && names.size() >= kFewestNames &&
-                             2 * names.size() >= reading_.cells);
-    const auto empty = std::ranges::count(names, std::string());
-    const bool is_numbers = std::ranges::all_of(names, [&](const std::string& name) {
-      return name.empty() || parse_cell(name, decimal()).has_value();
-    });
-    const bool is_clock = std::ranges::count_if(names, [](const std::string& name) {
-                            return name.find(':') != std::string::npos && parse_time_stamp(name);
-                          }) >= 2;
-    if (!are_enough || names.size() > reading_.cells || empty > 1 || is_numbers || is_clock) {
-      return std::nullopt;
-    }
-    names.resize(reading_.cells);
-    return names;
-  }
-
-  static bool are_units(const std::vector<std::string>& cells) {
-    return std::ranges::all_of(cells, [](const std::string& cell) {
-      const bool in_brackets = cell.starts_with('[') || cell.starts_with('(');
-      return cell.empty() || in_brackets || is_canonical_unit(canonical_unit(cell));
-    });
-  }
-
-  /// The line above `line` that is not blank.
-  std::optional<std::size_t> above(std::size_t line) const {
-    while (line > 0) {
-      if (!is_blank_line(sample_[--line].text)) return line;
-    }
-    return std::nullopt;
-  }
-
-  /// Between blanks the rows have a date and its clock in one cell.
-  void join_date_and_time(std::vector<std::string>& names) {
-    if (reading_.dialect.separator != ' ' || names.size() != reading_.cells + 1) return;
-    const auto row = splitter_.split(sample_[first_].text);
-    const auto stamp = row.empty() ? std::nullopt : parse_time_stamp(row.front());
-    if (!stamp || !stamp->has_date() || !stamp->clock_ns) return;
-    names[0] += " " + names[1];
-    names.erase(names.begin() + 1);
-  }
-
-  /// Seconds behind a decimal comma would be a column of their own.
-  void require_whole_stamps(const std::vector<std::string>& names) {
-    const auto row = splitter_.split(sample_[first_].text);
-    const bool has_more_cells = names.back().empty() && !row.back().empty();
-    if (reading_.dialect.separator != ',' || !has_more_cells || !parse_time_stamp(row[0])) return;
-    line_ = sample_[first_].number;
-    throw InputError(
-        fmt::format("{}: time stamps with a decimal comma between commas; put the time stamps "
-                    "in quotes, or write them with a decimal point",
-                    arm::shown(row[0])));
-  }
-
   void read_names() {
     if (counted_) {
       columns_ = counted_->columns;
       columns_.resize(reading_.cells);
       assume(fmt::format("names are in line {}", sample_[counted_->head].number));
     } else {
-      read_header();
+      auto header = read_table_header(sample_, reading_, first_, line_);
+      columns_ = std::move(header.columns);
+      std::ranges::move(header.sentences, std::back_inserter(assumptions_));
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i].name.empty()) columns_[i].name = fmt::format("column {}", i + 1);
@@ -259,34 +196,6 @@ class TableReader {
     for (const auto& sentence : beside.sentences) assume(arm::shown(sentence, 200));
   }
 
-  void read_header() {
-    std::vector<std::string> units;
-    auto head = above(first_);
-    auto names = head ? names_in(sample_[*head].text) : std::nullopt;
-    const auto second = head ? above(*head) : std::nullopt;
-    if (names && are_units(*names) && second) {
-      if (auto upper = names_in(sample_[*second].text)) {
-        assume(fmt::format("units are in line {}", sample_[*head].number));
-        units = std::exchange(*names, std::move(*upper));
-        head = second;
-      }
-    }
-    if (names) require_whole_stamps(*names);
-    for (std::size_t i = 0; i < reading_.cells; ++i) {
-      ForeignColumn column;
-      if (names) column.name = (*names)[i];
-      column.unit = units.empty() ? split_column_name(column.name).unit : canonical_unit(units[i]);
-      columns_.push_back(std::move(column));
-    }
-    if (names) {
-      assume(fmt::format("names are in line {}", sample_[*head].number));
-    } else {
-      assume("no header line; columns named column 1, column 2, ...");
-    }
-    const std::size_t preamble = names ? *head : first_;
-    if (preamble > 0) assume(fmt::format("{} skipped at the beginning", counted(preamble, "line")));
-  }
-
   static std::string counted(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   }
@@ -298,6 +207,7 @@ class TableReader {
     assume(fmt::format("numbers have a decimal {}", decimal() == ',' ? "comma" : "point"));
     ColumnBuilder builder(columns_, decimal());
     for (const std::size_t column : beside_) builder.take_as_text(column);
+    ThousandsMarks marks(reading_.cells, reading_.dialect);
     LineReader lines(text_);
     TextLine line;
     TextLine short_row;
@@ -308,13 +218,20 @@ class TableReader {
         short_row = line;  // no fault yet, if it is the last one
       } else {
         require_cells(line);
-        builder.add_row(splitter_.split(line.text).first(reading_.cells), line.number);
+        const auto cells = splitter_.split(line.text).first(reading_.cells);
+        builder.add_row(cells, line.number);
+        marks.add_row(cells, line.number);
       }
     }
     if (short_row.number > 0) {
       assume(fmt::format("last line {} incomplete and ignored", short_row.number));
     }
     table_ = builder.finish();
+    if (const auto mark = marks.doubtful()) {
+      line_ = mark->line;
+      throw InputError(fmt::format("column {} = {}: {}", arm::shown(columns_[mark->column].name),
+                                   arm::shown(mark->cell), mark->fault));
+    }
     std::ranges::move(table_.assumptions, std::back_inserter(assumptions_));
   }
 
@@ -361,6 +278,25 @@ class TableReader {
   int line_ = 1;
 };
 
+/// Whether the name of a column tells a quantity.
+bool names_quantity(const ForeignColumn& column) {
+  const std::string name = plain_letters(quantity_name(column.name));
+  return std::ranges::any_of(quantity_words(), [&](const QuantityWords& words) {
+    return std::ranges::count(words.words, name) > 0;
+  });
+}
+
+/// The first text with a digit, of a column of texts that is by its name numbers.
+std::optional<std::size_t> row_of_no_number(const ForeignColumn& column) {
+  if (!column.is_text() || !names_quantity(column)) return std::nullopt;
+  const auto found = std::ranges::find_if(column.texts, [](const std::string& cell) {
+    return cell.find_first_of("0123456789") != std::string::npos && !parse_cell(cell, '.') &&
+           !parse_time_stamp(cell);
+  });
+  if (found == column.texts.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - column.texts.begin());
+}
+
 }  // namespace
 
 bool is_time_column(const ForeignColumn& column) {
@@ -382,14 +318,20 @@ bool ForeignColumn::holds_nothing() const {
 std::vector<std::string> stray_texts(const ForeignTable& table) {
   std::vector<std::string> sentences;
   for (const auto& column : table.columns) {
-    if (column.stray.empty()) continue;
+    const bool is_alone = !column.stray.empty();
+    const auto row = is_alone ? column.stray_row : row_of_no_number(column);
+    if (!row) continue;
     const std::string place = table.line_of_row.empty()
-                                  ? fmt::format("sample {}", column.stray_row + 1)
-                                  : fmt::format("line {}", line_of(table, column.stray_row));
-    sentences.push_back(
-        fmt::format("{} = {} in {}: no number, as its other cells are; write the number, or leave "
-                    "the cell empty for a missing sample",
-                    arm::shown(column.name), arm::shown(column.stray), place));
+                                  ? fmt::format("sample {}", *row + 1)
+                                  : fmt::format("line {}", line_of(table, *row));
+    sentences.push_back(fmt::format(
+        "{} = {} in {}: no number, {}", arm::shown(column.name), arm::shown(column.texts[*row]),
+        place,
+        is_alone
+            ? "as its other cells are; write the number, or leave the cell empty for a missing "
+              "sample"
+            : "nor are other cells of the column; write them as numbers, with the decimal mark "
+              "of the other columns"));
   }
   return sentences;
 }

@@ -43,7 +43,7 @@ struct ForeignTable {
 };
 
 /// "hub_angle = #FOO in line 3: no number, as its other cells are; ...", of the columns of `table`
-/// that are text for one sign alone.
+/// that are text for one sign alone, or that are by their names numbers and hold texts with digits.
 std::vector<std::string> stray_texts(const ForeignTable& table);
 
 /// Where the column of that name is (`column_place`); several may have one name. Throws InputError

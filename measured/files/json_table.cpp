@@ -4,10 +4,12 @@
 #include "arm/number.hpp"
 #include "measured/files/column_builder.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/json_reading.hpp"
 #include "measured/files/json_signals.hpp"
 #include "measured/files/json_times.hpp"
 #include "measured/files/json_units.hpp"
 #include "measured/files/record_constants.hpp"
+#include "measured/files/signal_factors.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -61,28 +63,6 @@ bool is_of_units(const Json& value) {
   return value.is_object() && std::ranges::all_of(value, [](const Json& unit) {
            return unit.is_string() || unit.is_null() || is_of_units(unit);
          });
-}
-
-/// NaN and Infinity, which Python writes and JSON does not know, as null, outside of texts.
-std::string without_nan(string_view text) {
-  std::string out;
-  bool in_text = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) in_text = !in_text;
-    if (!in_text) {
-      bool found = false;
-      for (const string_view word : {"NaN", "-Infinity", "Infinity"}) {
-        if (!text.substr(i).starts_with(word)) continue;
-        out += "null";
-        i += word.size() - 1;
-        found = true;
-        break;
-      }
-      if (found) continue;
-    }
-    out += text[i];
-  }
-  return out;
 }
 
 /// Builds columns; a cell that a row does not have is empty.
@@ -251,8 +231,15 @@ class JsonTableBuilder {
         units_.push_back({path, *list, value.get<std::string>(), false, singles_.back()});
       } else {
         out_.left_out.push_back(fmt::format("{}: a single value", singles_.back()));
-        if (value.is_number()) {
-          numbers_.push_back({key, value.get<double>(), out_.left_out.back()});
+        if (value.is_string()) {
+          numbers_.push_back({key, value.get<std::string>(), out_.left_out.back()});
+        } else if (value.is_number()) {
+          numbers_.push_back({key, fmt::format("{}", value.get<double>()), out_.left_out.back()});
+          // Settings of named signals stand in an object of their own.
+          const bool is_beside =
+              path.ends_with(" settings") || std::ranges::any_of(object, is_list);
+          const std::string sentence = unapplied_factor(singles_.back(), value.get<double>());
+          if (is_beside && !sentence.empty()) out_.table.assumptions.push_back(sentence);
         }
       }
     }
@@ -363,28 +350,8 @@ class JsonTableBuilder {
   std::map<std::string, std::size_t> places_;
   std::vector<JsonUnit> units_;
   std::vector<std::string> singles_;  ///< names of single values
-  std::vector<JsonNumber> numbers_;   ///< single ones
+  std::vector<JsonNumber> numbers_;   ///< single ones, and texts
 };
-
-/// The list of the objects that stand one a line; discarded for any other text.
-Json objects_by_line(string_view text) {
-  Json list = Json::array();
-  while (!text.empty()) {
-    const auto end = std::min(text.find('\n'), text.size());
-    const string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.find_first_not_of(" \t\r") == string_view::npos) continue;
-    Json object = Json::parse(line, nullptr, false);
-    const bool is_row = object.is_object() || object.is_array();
-    if (!is_row) {
-      // The last one may be cut off.
-      if (object.is_discarded() && text.empty() && !list.empty()) break;
-      return Json(Json::value_t::discarded);
-    }
-    list.push_back(std::move(object));
-  }
-  return list;
-}
 
 }  // namespace
 
@@ -404,21 +371,8 @@ bool is_json(string_view bytes) {
 JsonTable parse_json_table(string_view text, const std::string& file_name) {
   JsonTable table;
   try {
-    const std::string sound = without_nan(text);
-    Json json = Json::parse(sound, nullptr, false);
-    if (json.is_discarded()) json = objects_by_line(sound);
-    if (json.is_discarded()) {
-      try {
-        [[maybe_unused]] const Json whole = Json::parse(sound);
-      } catch (const Json::parse_error& error) {
-        throw InputError(fmt::format(
-            "not JSON, nor a JSON object a line: wrong or cut off at byte {}", error.byte));
-      } catch (const Json::exception&) {
-        throw InputError("JSON with a number above 1e308");
-      }
-    }
     JsonTableBuilder builder(table);
-    builder.add(with_lists_of_signals(std::move(json)), "", 0);
+    builder.add(with_lists_of_signals(parsed_json(text)), "", 0);
     builder.finish();
     if (table.table.columns.empty()) {
       throw InputError(

@@ -23,9 +23,11 @@ void add_json_times(ForeignTable& table, std::span<const JsonNumber> numbers,
   SamplingSettings settings;
   std::vector<std::string> used;
   for (const auto& number : numbers) {
+    // A date and its clock are no time in s.
+    if (number.text.find_first_of(":\t") != std::string::npos) continue;
     const auto unit = std::ranges::find(units, number.key, &JsonUnit::key);
     const std::string text =
-        fmt::format("{}: {} {}", number.key, number.value, unit == units.end() ? "" : unit->text);
+        fmt::format("{}: {} {}", number.key, number.text, unit == units.end() ? "" : unit->text);
     const TextLine line{1, text};
     const SamplingSettings own = sampling_settings(std::span(&line, 1), '\t', '.');
     if (!own.period_s && !is_start_name(number.key)) continue;

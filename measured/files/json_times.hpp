@@ -9,10 +9,10 @@
 
 namespace flexarm::measured {
 
-/// A single number of a JSON file.
+/// A single number of a JSON or MATLAB file.
 struct JsonNumber {
   std::string key;
-  double value = 0.0;
+  std::string text;      ///< "500", "500 Hz", or no number
   std::string left_out;  ///< the phrase on it among those of what is no column
 };
 

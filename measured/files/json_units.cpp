@@ -96,7 +96,8 @@ bool is_unit_key(string_view key) {
 
 std::optional<std::string> list_of_unit_key(string_view key) {
   if (is_unit_key(key)) return "";
-  for (const string_view end : {"_unit", "_units", "Unit", "Units", " unit", " units"}) {
+  for (const string_view end :
+       {"_unit", "_units", "_Unit", "_Units", "Unit", "Units", " unit", " units"}) {
     if (key.size() > end.size() && key.ends_with(end)) {
       return std::string(key.substr(0, key.size() - end.size()));
     }

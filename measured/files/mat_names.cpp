@@ -47,6 +47,13 @@ bool names_units(string_view path) {
          field.ends_with("unites");
 }
 
+/// Whether a text is by its field a label or the unit of frequencies.
+bool tells_other(string_view path) {
+  const std::string field = mat_field(path);
+  return std::ranges::count(kLabelFields, field) > 0 ||
+         std::ranges::count(kFrequencyUnitFields, field) > 0;
+}
+
 bool is_time_field(string_view path) {
   return std::ranges::count(kTimeFields, string_view(mat_field(path))) > 0;
 }
@@ -139,9 +146,11 @@ bool is_description(string_view path) {
 
 MatNames::MatNames(const std::vector<MatVariable>& variables,
                    const std::vector<std::string>& left_out) {
+  std::vector<std::string> numbers;
   for (const string_view phrase : left_out) {
     const auto end = phrase.find(": ");
     const string_view path = phrase.substr(0, end);
+    numbers.emplace_back(path);
     const bool is_unit =
         !owner_of(path).empty() && (std::ranges::count(kUnitFields, mat_field(path)) > 0 ||
                                     std::ranges::count(kFrequencyUnitFields, mat_field(path)) > 0);
@@ -160,7 +169,9 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
     if (text != nullptr) {
       texts_[owner.empty() ? std::string(path) : owner + "." + mat_field(path)] = *text;
       if (split_cell(path)) texts_[std::string(path)] = *text;
+      if (!tells_other(path)) keyed_units_.take(path, *text);
     } else if (list == nullptr) {
+      numbers.push_back(variable.name);
       const auto* matrix = std::get_if<MatMatrix>(&variable.value);
       if (matrix != nullptr && matrix->values.size() < 2) continue;
       if (is_description(path)) continue;
@@ -175,6 +186,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
       }
     }
   }
+  keyed_units_.place(numbers);
   for (const auto& [owner, units] : unit_lists_) {
     const auto names = lists_.find(owner);
     const bool is_one_each = names != lists_.end() && names->second.size() == 1;
@@ -254,7 +266,8 @@ const MatStrings* MatNames::list_beside(const Lists& lists, string_view path, st
   const MatStrings* found = nullptr;
   for (const auto* list : beside->second) {
     if (list->size() != count || count < 2) continue;
-    if (found != nullptr) return nullptr;
+    // "colheaders" and "textdata" of importdata may be the same texts.
+    if (found != nullptr && *found != *list) return nullptr;
     found = list;
   }
   return found;
@@ -312,13 +325,14 @@ std::vector<MatSignalName> MatNames::of(const std::string& path,
     if (name.name.empty()) name.name = name.path;
     const std::string of_name =
         split_column_name(labels[i].empty() ? mat_field(path) : labels[i]).unit;
-    const std::string listed =
+    std::string listed =
         canonical_unit(units != nullptr ? (*units)[i] : text_of_cell(path, unit_lists_, 2));
+    const bool is_keyed = listed.empty();
+    if (is_keyed) listed = keyed_units_.of(path);
     if (!listed.empty() && !of_name.empty() && listed != of_name) {
-      throw arm::InputError(
-          fmt::format("{}: in {} by its name, in {} by the list of units; must "
-                      "be the same",
-                      arm::shown(name.name), arm::shown(of_name), arm::shown(listed)));
+      throw arm::InputError(fmt::format(
+          "{}: in {} by its name, in {} by the {}; must be the same", arm::shown(name.name),
+          arm::shown(of_name), arm::shown(listed), is_keyed ? "unit beside it" : "list of units"));
     }
     if (name.unit.empty()) name.unit = listed.empty() ? of_name : listed;
     names.push_back(std::move(name));

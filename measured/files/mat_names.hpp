@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measured/files/keyed_units.hpp"
 #include "measured/files/mat_file.hpp"
 
 #include <cstddef>
@@ -22,22 +23,25 @@ struct MatSignalName {
 /// Names that structures tell of the signals in them, as Simulink and dSPACE write them: a text
 /// `label`, `Name`, `SignalName` or `title` beside the values or around them, with a `Unit`; a list
 /// of as many texts as a matrix has signals, or a cell array cells, with one called `units`; a cell
-/// of text above one of values. `X.Data` beside `Y.Data` is a time. A `FrequencyUnit` is that of
+/// of text above one of values. Units told by the name of the signal are `KeyedUnits`. `X.Data`
+/// beside `Y.Data` is a time. A `FrequencyUnit` is that of
 /// the frequencies beside it, as is a `Unit` of Hz or kHz.
 class MatNames {
  public:
   /// Throws InputError for a unit of a signal that is there and is no text of one row, and for a
-  /// list of units that is not as long as that of the names.
+  /// list of units that is not as long as that of the names, or of no signal (`KeyedUnits`).
   explicit MatNames(const std::vector<MatVariable>& variables,
                     const std::vector<std::string>& left_out);
 
   /// The signals of the variable `path`, `count` columns or rows that stand at `path` + suffix.
-  /// Throws InputError for a unit in a name that differs from that in the list.
+  /// Throws InputError for a unit in a name that differs from the one told beside it.
   std::vector<MatSignalName> of(const std::string& path,
                                 const std::vector<std::string>& suffixes) const;
 
   /// The `FrequencyUnit` beside a vector, canonical; empty: not told.
   std::string told_frequency_unit(std::string_view path) const;
+
+  const KeyedUnits& keyed_units() const { return keyed_units_; }
 
  private:
   /// Lists of texts, by what holds them.
@@ -53,6 +57,7 @@ class MatNames {
   std::map<std::string, std::string, std::less<>> texts_;  ///< by path, the field in lower case
   Lists lists_;                                            ///< of names
   Lists unit_lists_;                                       ///< called so
+  KeyedUnits keyed_units_;
   std::map<std::string, std::size_t, std::less<>> signals_in_;  ///< by owner, without times
   std::map<std::string, std::size_t, std::less<>> cells_in_;    ///< cells of values, by cell array
   std::set<std::string, std::less<>> times_in_;                 ///< owners of times

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -15,7 +16,7 @@ std::string take_out_over_range(ForeignColumn& column, const std::string& what) 
   std::size_t count = 0;
   double first = 0.0;
   for (double& value : column.values) {
-    if (!is_over_range(value)) continue;
+    if (!is_over_range(value) && !std::isinf(value)) continue;
     if (count++ == 0) first = value;
     value = kUnknown;
   }
@@ -28,10 +29,10 @@ std::string take_out_over_range(ForeignColumn& column, const std::string& what) 
 
 std::vector<std::string> doubtful_signs(std::span<const double> values, const std::string& name,
                                         const std::string& what) {
-  constexpr double kSigns[] = {-999.0,  999.0,         -9999.0,      9999.0,       -99999.0,
-                               99999.0, -999999.0,     999999.0,     -32768.0,     32767.0,
-                               65535.0, -2147483648.0, 2147483647.0, 4294967295.0, -1e20,
-                               1e20,    -1e30,         1e30};
+  constexpr double kSigns[] = {
+      -999.0,   999.0,   -9999.0, 9999.0,     -99999.0,  99999.0,       -999999.0,    999999.0,
+      -32768.0, 32767.0, 65535.0, -8388608.0, 8388607.0, -2147483648.0, 2147483647.0, 4294967295.0,
+      -1e20,    1e20,    -1e30,   1e30,       -1e37,     1e37};
   std::vector<std::string> doubts;
   for (const double sign : kSigns) {
     const auto count = std::ranges::count(values, sign);
@@ -39,7 +40,7 @@ std::vector<std::string> doubtful_signs(std::span<const double> values, const st
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
     for (const double value : values) {
-      if (!is_reading(value) || value == sign) continue;
+      if (!is_reading(value) || std::abs(value) == std::abs(sign)) continue;
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }

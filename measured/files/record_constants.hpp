@@ -11,10 +11,12 @@ namespace flexarm::measured {
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Whether this stands for what an instrument could not measure: 9.9E37, 9.91E37
-/// (SCPI), 9.99999E37, in single precision too.
+/// (SCPI), 9.99999E37, in single precision too; the largest number in single or double precision,
+/// in six digits too.
 inline constexpr bool is_over_range(double value) {
   const double size = value < 0.0 ? -value : value;
-  return size >= 9.89999e37 && size <= 1.00001e38;
+  return (size >= 9.89999e37 && size <= 1.00001e38) || (size >= 3.40282e38 && size <= 3.40283e38) ||
+         (size >= 1.79769e308 && size <= std::numeric_limits<double>::max());
 }
 
 /// Whether it is a finite number that was measured.

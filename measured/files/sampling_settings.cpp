@@ -58,6 +58,7 @@ std::string setting_name_of(string_view words) {
                          (words.front() >= 'A' && words.front() <= 'Z'));
   if (!begins_with_letter || words.size() > kLongestSetting) return "";
   const std::string base = split_column_name(words).base;
+  if (base == "Ts") return "sampletime";  // "ts" may be a time stamp
   std::string name = plain_letters(base);
   for (const char digit : {'0'}) {
     if (base.ends_with(digit)) name += digit;

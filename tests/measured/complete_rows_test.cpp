@@ -59,6 +59,16 @@ TEST(CompleteRows, OverRangeIsNoNumber) {
   EXPECT_THAT(kept.notes, testing::Contains(HasSubstr("1 cell of column u with 9.9e+37, an")));
   auto large = parse_foreign_table("t,u,y\n0,1,2\n1,3e202,3\n2,1,4\n", "log");
   EXPECT_THAT(keep(large).rows, ElementsAre(0, 1, 2));
+  auto beyond = parse_foreign_table("t,u,y\n0,1,2\n1,1,OVLD\n2,1,inf\n3,1,4\n", "log");
+  const auto kept_within = keep(beyond);
+  EXPECT_THAT(kept_within.rows, ElementsAre(0, 3));
+  EXPECT_THAT(kept_within.notes, testing::Contains(HasSubstr("2 cells of column y with inf, an")));
+  for (const char* largest :
+       {"3.4028235e38", "-3.40282e+38", "1.7976931348623157e308", "-1.79769e+308"}) {
+    auto of_a_type =
+        parse_foreign_table(fmt::format("t,u,y\n0,1,2\n1,{},3\n2,1,4\n", largest), "log");
+    EXPECT_THAT(keep(of_a_type).rows, ElementsAre(0, 2)) << largest;
+  }
 }
 
 std::vector<std::string> warnings_of(const std::string& text) {
@@ -72,6 +82,11 @@ TEST(CompleteRows, SignsOfMissingSamplesFarOutsideAreDoubted) {
                           "-9999 stands for a missing sample, empty these cells"));
   EXPECT_THAT(warnings_of("t,u,y\n0,1,2\n1,1,-32768\n2,1,4\n"),
               ElementsAre(HasSubstr("hub_angle: 1 cell of column y is -32768")));
+  EXPECT_THAT(warnings_of("t,u,y\n0,1,2\n1,1,-1e37\n2,1,1e37\n3,1,4\n"),
+              ElementsAre(HasSubstr("column y is -1e+37, the others lie from 2 to 4"),
+                          HasSubstr("column y is 1e+37, the others lie from 2 to 4")));
+  EXPECT_THAT(warnings_of("t,u,y\n0,0.1,2\n1,8388607,3\n2,-0.1,4\n"),
+              ElementsAre(HasSubstr("torque: 1 cell of column u is 8388607")));
   // Counts, and a column of one number.
   EXPECT_THAT(warnings_of("t,u,y\n0,1,0\n1,1,20000\n2,1,32767\n"), testing::IsEmpty());
   EXPECT_THAT(warnings_of("t,u,y\n0,999,0\n1,999,1\n2,999,0\n"), testing::IsEmpty());

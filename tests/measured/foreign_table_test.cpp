@@ -228,6 +228,30 @@ const std::vector<Mistake> kForeignTableMistakes = {
      "2: column u = 1.000,5: has thousands separators; write the number without them"},
     {"ThousandsApostrophes", "t;u;v\n0;1'000.5;1\n1;1'001.5;1\n",
      "2: column u = 1'000.5: has thousands separators; write the number without them"},
+    {"ThousandsOfWholeNumbers", "t\tu\n0\t-512\n2\t987\n4\t-1,032\n6\t1,040\n",
+     "4: column u = -1,032: has thousands separators; write the number without them"},
+    {"ThousandsOfWholeNumbersWithPoints", "t;u\n0;0\n2;987\n4;1.032\n6;12.040\n",
+     "4: column u = 1.032: has thousands separators; write the number without them"},
+    {"QuotedThousands", "t,u,y\n0,1,5\n2,1,\"1,030\"\n4,1,\"1,042\"\n",
+     "3: column y = 1,030: has thousands separators; write the number without them"},
+    {"ThousandsInEachColumn", "t\tu\n0\t0\n2,000\t60,000\n4,000\t-60,000\n",
+     "3: column t = 2,000: has thousands separators; write the number without them"},
+    {"UnitsThatDiffer", "time,torque [N m]\ns,mNm\n0,1\n1,1\n",
+     "2: column torque [N m]: in N m by its name, in N mm by the line of units; must be the same"},
+    {"UnitsThatDifferAboveTheNames", "s,deg\nt_s,angle_rad\n0,1\n1,1\n",
+     "1: column angle_rad: in rad by its name, in deg by the line of units; must be the same"},
+    {"CommaAsSeparatorAndDecimalMark", "t,tau,theta\n0,20,0,0600,0,0065\n0,22,-0,0600,0,0070\n",
+     "2: 6 cells below 3 names: the comma is both separator and decimal mark; save with "
+     "semicolons, or with decimal points"},
+    {"CommaAsSeparatorAndDecimalMarkOfTwoColumns", "t,u\n0,05,0,5\n0,10,-0,5\n",
+     "2: 4 cells below 2 names: the comma is both separator and decimal mark; save with "
+     "semicolons, or with decimal points"},
+    {"TimeWithoutAName", "torque [N m],hub_angle [rad],\n0,0.1,0\n0.002,0.1,0\n0.004,0.2,0\n",
+     "2: column torque [N m] increases evenly, as a time does, and the last column has no name; "
+     "the header must name each column"},
+    {"ThousandsOrDecimals", "t;u\n0;1,234\n1;2,345\n2;1,250\n",
+     "2: column u = 1,234: may be 1234 with a thousands separator or a decimal; write 1234 or "
+     "1,2340 (all such numbers of the column)"},
 };
 
 class ForeignTableMistake : public testing::TestWithParam<Mistake> {};
@@ -238,6 +262,56 @@ TEST_P(ForeignTableMistake, GivesOneLineWithPlaceReasonAndRemedy) {
 
 INSTANTIATE_TEST_SUITE_P(, ForeignTableMistake, testing::ValuesIn(kForeignTableMistakes),
                          name_of_mistake);
+
+/// Tables as R writes them have a name for each column but the first, which numbers the rows.
+TEST(ForeignTable, NamesOfOneFewerThanColumnsBelongToTheLastWhereTheFirstNumbersRows) {
+  for (const char* text : {"\"time\" \"u\" \"y\"\n\"1\" 0 0.5 7\n\"2\" 2 1.5 8\n\"3\" 4 0.5 9\n",
+                           "time\tu\ty\n1\t0\t0.5\t7\n2\t2\t1.5\t8\n3\t4\t0.5\t9\n",
+                           "time [ms],u,y\n1,0,0.5,7\n2,2,1.5,8\n3,4,0.5,9\n",
+                           "time u y\n0 0 0.5 7\n1 2 1.5 8\n2 4 0.5 9\n"}) {
+    const auto table = parse_foreign_table(text, "log");
+    ASSERT_EQ(table.columns.size(), 4U) << text;
+    EXPECT_EQ(table.columns[0].name, "column 1") << text;
+    EXPECT_TRUE(is_time_column(table.columns[1])) << text;
+    EXPECT_THAT(table.columns[1].values, ElementsAre(0.0, 2.0, 4.0)) << text;
+    EXPECT_THAT(table.columns[3].values, ElementsAre(7.0, 8.0, 9.0)) << text;
+    EXPECT_THAT(table.assumptions,
+                Contains("names are those of the last columns; the first numbers the rows"));
+  }
+  for (const char* text : {"n,u,y\n1,0.1,0.5,7\n2,0.2,1.5,8\n3,0.4,0.5,9\n",
+                           "time,u,y\n0,1,0.5,7\n0.1,2,1.5,8\n0.2,4,0.5,9\n",
+                           "time,u,y,\n1,0.1,0.5,7\n2,0.2,1.5,8\n3,0.4,0.5,9\n"}) {
+    EXPECT_EQ(parse_foreign_table(text, "log").columns[3].name, "column 4") << text;
+  }
+}
+
+TEST(ForeignTable, ALineOfUnitsMayStandAboveTheNames) {
+  const auto table =
+      parse_foreign_table("bench\ns,mNm,deg\ntime,torque,angle\n0,1,2\n1,1,2\n", "log");
+  EXPECT_THAT(names_of(table), ElementsAre("time", "torque", "angle"));
+  EXPECT_THAT(units_of(table), ElementsAre("s", "N mm", "deg"));
+  EXPECT_THAT(table.assumptions, Contains("units are in line 2"));
+  EXPECT_THAT(table.assumptions, Contains("names are in line 3"));
+  EXPECT_THAT(table.assumptions, Contains("1 line skipped at the beginning"));
+}
+
+TEST(ForeignTable, AnEmptyCellInTheLineOfUnitsLeavesTheUnitInTheName) {
+  const auto table = parse_foreign_table("t;u [mNm];Channel A\ns;;V\n0;1;2\n1;1;2\n", "log");
+  EXPECT_THAT(units_of(table), ElementsAre("s", "N mm", "V"));
+}
+
+/// Three decimals everywhere are no thousands where a number below 1, another count of decimals, or
+/// a whole number from 1000 on says so; nor are points between commas.
+TEST(ForeignTable, NumbersOfThreeDecimalsAreNoThousands) {
+  for (const char* text : {"t;u\n0,000;1,234\n1,000;1,250\n", "t;u\n0;0,123\n1;1,250\n2;12,000\n",
+                           "t;u\n0;1,250\n0,5;12,000\n", "t;u\n998;1,250\n1000;2\n1002;1,500e0\n",
+                           "t,u\n1,1.250\n2,3\n"}) {
+    const auto table = parse_foreign_table(text, "log");
+    EXPECT_THAT(table.columns[1].values, Contains(testing::AnyOf(1.25, 1.234))) << text;
+  }
+  const auto table = parse_foreign_table("t;u\n0;998\n1;1000\n2;1,250\n", "log");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(998.0, 1000.0, 1.25));
+}
 
 TEST(ForeignTable, WhatIsNoTextIsRefused) {
   for (const std::string& bytes : {std::string("t,u\n0,1\0\n1,2\n", 13),
@@ -278,7 +352,8 @@ TEST(ForeignTable, AnotherNameForAColumnIsShownWithoutControlCharacters) {
 
 TEST(ForeignTable, SignsOfAMissingNumberMayBeFirst) {
   for (const char* sign :
-       {"#NUM!", "None", "-1.#IND00", "1.#QNAN0", "#DIV/0!", "<NA>", "NaT", "k.A."}) {
+       {"#NUM!", "None", "-1.#IND00", "1.#QNAN0", "#DIV/0!", "<NA>", "NaT", "k.A.", ".", "\\N",
+        "nil", "(null)", "Missing", "invalid", "No Data", "****"}) {
     const auto table = parse_foreign_table(
         std::string("t;u;y\n0;1;") + sign + "\n1;1;3\n2;1;" + sign + "\n", "log");
     ASSERT_FALSE(table.columns[2].is_text()) << sign;
@@ -286,6 +361,42 @@ TEST(ForeignTable, SignsOfAMissingNumberMayBeFirst) {
     EXPECT_EQ(table.columns[2].values[1], 3.0) << sign;
     EXPECT_TRUE(stray_texts(table).empty());
   }
+}
+
+TEST(ForeignTable, SignsOfANumberBeyondTheRangeAreInfinite) {
+  for (const char* sign : {"OVLD", "OL", "-OL", "Overflow", "Overrange", "+OVR", "1.#INF",
+                           "-1.#INF00", "\xe2\x88\x9e", "inf", "-Inf"}) {
+    const auto table = parse_foreign_table(
+        std::string("t;u;y\n0;1;") + sign + "\n1;1;3\n2;1;" + sign + "\n", "log");
+    ASSERT_FALSE(table.columns[2].is_text()) << sign;
+    EXPECT_TRUE(std::isinf(table.columns[2].values[0])) << sign;
+    EXPECT_EQ(table.columns[2].values[1], 3.0) << sign;
+  }
+}
+
+/// Durations as MATLAB writes them in tables.
+TEST(ForeignTable, CellsMayHaveTheUnitOfTheirColumn) {
+  const auto table = parse_foreign_table(
+      "Time,torque [N m],y,z,gear\n0 sec,0.5 Nm,1,1,2 up\n0.002 sec,,2,1,3 V\n0.004 "
+      "sec,1.5Nm,3,1,4\n",
+      "log");
+  EXPECT_THAT(table.columns[0].values, ElementsAre(0.0, 0.002, 0.004));
+  EXPECT_EQ(table.columns[0].unit, "s");
+  EXPECT_THAT(table.columns[1].values, ElementsAre(0.5, testing::IsNan(), 1.5));
+  EXPECT_EQ(table.columns[1].unit, "N m");
+  EXPECT_TRUE(table.columns[4].is_text());
+  EXPECT_THAT(table.assumptions, Contains("cells of Time have the unit s"));
+  const auto other = parse_foreign_table("t,torque [N m],y\n0,6%,1\n1,5%,2\n", "log");
+  EXPECT_TRUE(other.columns[1].is_text());
+}
+
+TEST(ForeignTable, TextsInAColumnOfAQuantityAreNamed) {
+  const auto table = parse_foreign_table(
+      "t;torque [N m];angle;note\n0;0,000;1.5;run 1\n1;0,0600;1.5;run 2\n", "log");
+  EXPECT_THAT(stray_texts(table),
+              ElementsAre("torque [N m] = 0,000 in line 2: no number, nor are other cells of the "
+                          "column; write them as numbers, with the decimal mark of the other "
+                          "columns"));
 }
 
 TEST(ForeignTable, ATextAmongNumbersIsNamed) {

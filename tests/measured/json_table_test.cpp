@@ -151,6 +151,31 @@ TEST(JsonTableTest, UnitsBesideListsAreThoseOfTheLists) {
               ms_and_deg);
 }
 
+TEST(JsonTableTest, AKeyGivenTwiceIsRefused) {
+  const std::string refusal = "a.json: t: given twice in one object; must be given once";
+  EXPECT_EQ(refusal_of(R"({"t": [0, 1], "y": [3, 4], "t": [0, 2]})"), refusal);
+  EXPECT_EQ(refusal_of(R"([{"t": 0, "y": 3}, {"t": 1, "y": 4, "t": 2}])"), refusal);
+  EXPECT_EQ(refusal_of("{\"t\": 0, \"y\": 3}\n{\"t\": 1, \"t\": 4}\n"), refusal);
+  EXPECT_EQ(refusal_of(R"({"t": {"values": [0, 1]}, "y": {"values": [3, 4]}})"), "accepted");
+}
+
+TEST(JsonTableTest, ARateMayBeATextWithItsUnit) {
+  const auto read = parse_json_table(
+      R"({"sample_rate": "0.5 kHz", "start": "12:00:00", "tau": [1, 2], "theta": [3, 4]})",
+      "a.json");
+  ASSERT_EQ(read.table.columns.size(), 3U);
+  EXPECT_THAT(read.table.columns[2].values, ElementsAre(0.0, 0.002));
+  EXPECT_THAT(read.left_out, ElementsAre("start: a single value"));
+}
+
+TEST(JsonTableTest, AScaleBesideAListIsSaidToBeUnapplied) {
+  const auto read = parse_json_table(
+      R"({"tau": {"value": [1, 2], "scale": 2, "offset": 0}, "gain": 3})", "a.json");
+  EXPECT_THAT(read.table.assumptions,
+              ElementsAre("tau.scale = 2 is not applied to the signal beside it; if the numbers "
+                          "lack it, state it as SCALE in --column"));
+}
+
 TEST(JsonTableTest, AUnitThatHasNoPlaceIsRefused) {
   EXPECT_THAT(refusal_of(R"({"unit": "deg", "hub_angle": [1, 2], "strain@0": [1, 2]})"),
               HasSubstr("a.json: unit = deg: stands beside several lists"));

@@ -14,6 +14,7 @@
 #include <matio.h>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -165,6 +166,15 @@ TEST_F(MatUnits, AListOfUnitsBesideAListOfNamesIsTheirs) {
                       column(torques_N_m()), text("theta"), text("deg"), column(angles_rad())})}}));
 }
 
+TEST_F(MatUnits, TwoListsOfTheSameNamesAreOne) {
+  const auto names = [] { return cells(1, 2, {text("torque [N m]"), text("theta [deg]")}); };
+  const auto file = read(
+      {{"A",
+        structures({{{"data", matrix(false)}, {"textdata", names()}, {"colheaders", names()}}})}});
+  EXPECT_THAT(names_in(file), ElementsAre("torque [N m]", "theta [deg]"));
+  EXPECT_EQ(file.table.columns[1].unit, "deg");
+}
+
 TEST_F(MatUnits, AListOfUnitsThatDoesNotFitIsRefused) {
   const auto refusal = [&](const std::vector<Field>& variables) {
     try {
@@ -186,6 +196,86 @@ TEST_F(MatUnits, AListOfUnitsThatDoesNotFitIsRefused) {
                        {"data", matrix(false)}}),
               HasSubstr("theta [rad]: in rad by its name, in deg by the list of units; must be the "
                         "same"));
+}
+
+TEST_F(MatUnits, AUnitToldByTheNameOfASignalIsRead) {
+  const auto units_told = [&](const std::vector<Field>& variables) {
+    std::vector<std::string> units;
+    const auto file = read(variables);
+    for (const auto& one : file.table.columns) units.push_back(one.unit);
+    EXPECT_THAT(file.left_out, testing::IsEmpty());
+    return units;
+  };
+  const auto units = [] { return structures({{{"tau", text("mNm")}, {"t", text("ms")}}}); };
+  const auto signals = [](const std::vector<Field>& more) {
+    std::vector<Field> fields = {{"t", column(times_s())}, {"tau", column(torques_N_m())}};
+    fields.insert(fields.end(), more.begin(), more.end());
+    return fields;
+  };
+  const auto both = ElementsAre("ms", "N mm");
+  EXPECT_THAT(units_told(signals({{"units", units()}})), both);
+  EXPECT_THAT(units_told({{"s", structures({signals({{"units", units()}})})}}), both);
+  EXPECT_THAT(units_told({{"s", structures({signals({})})}, {"Units", units()}}), both);
+  EXPECT_THAT(units_told(signals({{"tau_unit", text("mNm")}, {"tUnits", text("ms")}})), both);
+  EXPECT_THAT(
+      units_told(
+          {{"s", structures({signals({{"tau_Unit", text("mNm")}, {"t_units", text("ms")}})})}}),
+      both);
+  EXPECT_THAT(units_told({{"tau", structures({{{"value", column(torques_N_m())}}})},
+                          {"tau_units", text("mNm")}}),
+              ElementsAre("N mm"));
+}
+
+TEST_F(MatUnits, AUnitToldByANameThatDoesNotFitIsRefused) {
+  const auto refusal = [&](const std::vector<Field>& variables) {
+    try {
+      read(variables);
+    } catch (const arm::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(
+      refusal({{"tau_Nm", column(torques_N_m())}, {"tau_Nm_unit", text("mNm")}}),
+      HasSubstr("tau_Nm: in N m by its name, in N mm by the unit beside it; must be the same"));
+  EXPECT_THAT(
+      refusal({{"theta", column(angles_rad())}, {"units", structures({{{"angle", text("deg")}}})}}),
+      HasSubstr("units.angle = deg: no signal has this name; must be one of theta"));
+  EXPECT_THAT(refusal({{"theta", column(angles_rad())},
+                       {"units", structures({{{"theta", text("deg")}}})},
+                       {"theta_unit", text("rad")}}),
+              HasSubstr("has another unit; must be the same"));
+  EXPECT_EQ(refusal({{"theta", column(angles_rad())},
+                     {"length", column({1.0})},
+                     {"units", structures({{{"length", text("m")}, {"rig", text("B-17")}}})}}),
+            "accepted");
+}
+
+TEST_F(MatUnits, AScaleBesideASignalIsSaidToBeUnapplied) {
+  const auto file = read({{"tau", structures({{{"value", column(torques_N_m())},
+                                               {"scale", column({2.0})},
+                                               {"gain", column({1.0})},
+                                               {"offset", column({0.1})}}})}});
+  EXPECT_THAT(file.table.assumptions,
+              ElementsAre("tau.scale = 2 is not applied to the signal beside it; if the numbers "
+                          "lack it, state it as SCALE in --column",
+                          "tau.offset = 0.1 is not applied to the signal beside it; if the numbers "
+                          "lack it, add it in the file"));
+}
+
+TEST_F(MatUnits, ARateOrPeriodWithoutTimesMakesThem) {
+  using Setting = std::tuple<const char*, double, const char*>;
+  for (const auto& [name, value, unit] : {Setting{"fs", 250.0, ""}, Setting{"Ts", 0.004, ""},
+                                          Setting{"dt", 4.0, "ms"}, Setting{"Fs", 0.25, "kHz"}}) {
+    std::vector<Field> variables = {{"tau", column(torques_N_m())}, {name, column({value})}};
+    const std::string name_of_unit = std::string(name) + "_unit";
+    if (*unit != '\0') variables.emplace_back(name_of_unit.c_str(), text(unit));
+    const auto file = read(variables);
+    ASSERT_EQ(file.table.columns.size(), 2U) << name;
+    EXPECT_TRUE(file.table.columns[1].is_made) << name;
+    EXPECT_NEAR(file.table.columns[1].values[2], 0.008, 1e-15) << name;
+    EXPECT_THAT(file.left_out, testing::IsEmpty()) << name;
+  }
 }
 
 TEST_F(MatUnits, BesideTimesTheUnitOfWIsThatOfAVelocity) {

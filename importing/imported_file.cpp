@@ -129,15 +129,6 @@ std::string join_names(const std::vector<ColumnLabel>& labels) {
   return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
 }
 
-/// Times for a file without any.
-void add_times(ForeignTable& table, double period_s) {
-  arm::require_in_range("--period", period_s, "s", arm::kPositive);
-  std::erase_if(table.columns, [](const auto& column) { return column.is_made; });
-  const auto& first = table.columns.front();
-  const std::size_t rows = first.is_text() ? first.texts.size() : first.values.size();
-  table.columns.push_back({"time [s]", "s", measured::grid_points({0.0, period_s}, rows)});
-}
-
 /// "; Strom (A) may be a motor current; state it with ...", of the columns that may be it.
 std::string asked(const measured::ColumnGuess& guess, bool torque_alone) {
   std::string text;
@@ -355,6 +346,14 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
 }
 
 }  // namespace
+
+void add_times(ForeignTable& table, double period_s) {
+  arm::require_in_range("--period", period_s, "s", arm::kPositive);
+  std::erase_if(table.columns, [](const auto& column) { return column.is_made; });
+  const auto& first = table.columns.front();
+  const std::size_t rows = first.is_text() ? first.texts.size() : first.values.size();
+  table.columns.push_back({"time [s]", "s", measured::grid_points({0.0, period_s}, rows)});
+}
 
 ReadFile read_file(const std::string& path, const FileChoice& choice) {
   if (choice.raw_columns) {

@@ -49,6 +49,10 @@ struct ReadFile {
 /// Reads a file. Throws InputError with one line, as the readers do.
 ReadFile read_file(const std::string& file, const FileChoice& choice);
 
+/// Adds times from 0 s on, in place of those that a head tells. Throws InputError for a period that
+/// is not above 0.
+void add_times(measured::ForeignTable& table, double period_s);
+
 /// Takes columns for quantities. Throws InputError with one line for a file of two kinds, and, with
 /// the columns found, where time or torque cannot be told or nothing is a sensor.
 ImportedFile import_file(ReadFile read, const FileChoice& choice);

@@ -101,8 +101,18 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
   auto& columns = read.contents.table.columns;
   const std::string name = arm::shown(read.file);
   try {
+    if (choice.period_s && !columns.empty()) {
+      const auto own = std::ranges::find_if(columns, measured::is_time_column);
+      if (own != columns.end()) {
+        throw InputError(fmt::format("--period: not for a file that is joined by its own times, {}",
+                                     arm::shown(own->name)));
+      }
+      add_times(read.contents.table, *choice.period_s);
+    }
     if (!read.contents.responses.empty() || columns.size() < 2) {
-      throw InputError("--join needs a time and a signal or more in each file");
+      throw InputError(
+          "--join needs a time and a signal or more in each file; state the sampling period of "
+          "files without times with --period");
     }
     const auto labels = labels_of(columns);
     const auto mapping = time_of(labels, choice, assumptions);
@@ -187,9 +197,6 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
   const auto grid = arm::read_word("--join-grid", join.grid,
                                    std::array{JoinGrid::same, JoinGrid::first, JoinGrid::coarsest});
   if (files.size() < 2) throw InputError("--join: needs two files or more");
-  if (choice.period_s) {
-    throw InputError("--period: not together with --join; each file has times of its own");
-  }
   std::vector<TimedSignals> signals;
   std::vector<std::string> assumptions;
   std::vector<std::string> names;
@@ -202,10 +209,16 @@ ImportedFile import_joined(const std::vector<std::string>& files, const FileChoi
   }
   std::ranges::move(measured::put_on_one_clock(signals), std::back_inserter(assumptions));
   measured::name_joined_columns(signals);
+  if (choice.period_s) {
+    assumptions.push_back(fmt::format(
+        "all files are taken to begin at one moment, with a sample every {} s, as --period states",
+        *choice.period_s));
+  }
 
   FileChoice of_joined = choice;
   std::erase_if(of_joined.columns.typed, is_of_time);
   of_joined.columns.time_unit.clear();
+  of_joined.period_s.reset();
   const auto torque = torque_columns(signals, of_joined.columns);
   const bool is_driven = torque_acts_before(signals, torque);
   ReadFile joined{fmt::format("{}", fmt::join(names, " + ")),

@@ -63,7 +63,7 @@ int line_of(const ForeignTable& table, std::size_t row);
 /// measurement file is read as measured/files/labview_text.hpp says.
 ///
 /// Throws InputError `FILE:LINE: what is wrong; what is allowed` for a file that is not text, has
-/// no two rows of two numbers or more (one suffices where a head tells the period), rows of unlike
+/// no two rows of two numbers or more (of one in less than ten rows), rows of unlike
 /// length, a cell that is no number in a column of numbers, and thousands separators. A last line
 /// that is cut off is left out, and said.
 ForeignTable read_foreign_table(const std::filesystem::path& path);

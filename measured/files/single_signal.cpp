@@ -55,7 +55,7 @@ std::optional<std::size_t> first_single(std::span<const TextLine> sample, LineSp
     ++samples;
     first = i - 1;
   }
-  if (samples < kFewestSingles || first == 0 || first > kLongestHead) return std::nullopt;
+  if (samples < kFewestSingles || first > kLongestHead) return std::nullopt;
   return first;
 }
 
@@ -70,7 +70,7 @@ std::optional<ForeignTable> table_between(std::span<const TextLine> sample, std:
   if (counted && counted->columns.size() == 1) {
     signal = std::move(counted->columns.front());
     settings = counted->settings;
-  } else {
+  } else if (*first > 0) {
     settings = sampling_settings(sample.first(*first), separator, kPoint);
     std::size_t head = *first - 1;
     while (head > 0 && is_blank_line(sample[head].text)) --head;
@@ -78,7 +78,6 @@ std::optional<ForeignTable> table_between(std::span<const TextLine> sample, std:
     if (signal.name.find_first_of("=:") != std::string::npos) signal.name.clear();
     signal.unit = split_column_name(signal.name).unit;
   }
-  if (!settings.period_s) return std::nullopt;
   if (signal.name.empty()) signal.name = "column 1";
 
   ForeignTable table;
@@ -91,13 +90,16 @@ std::optional<ForeignTable> table_between(std::span<const TextLine> sample, std:
     signal.values.push_back(*number);
     table.line_of_row.push_back(line.number);
   }
-  ForeignColumn times{"time [s]", "s",
-                      grid_points({settings.start_s, *settings.period_s}, signal.values.size())};
-  times.is_made = true;
-  table.assumptions = {fmt::format("one signal, {}", arm::shown(signal.name)),
-                       fmt::format("times begin at {} s and are {} s apart, as line {} tells",
-                                   settings.start_s, *settings.period_s, settings.line)};
-  table.columns = {std::move(signal), std::move(times)};
+  table.assumptions = {fmt::format("one signal, {}", arm::shown(signal.name))};
+  const std::size_t samples = signal.values.size();
+  table.columns = {std::move(signal)};
+  if (!settings.period_s) return table;
+  table.assumptions.push_back(
+      fmt::format("times begin at {} s and are {} s apart, as line {} tells", settings.start_s,
+                  *settings.period_s, settings.line));
+  table.columns.push_back(
+      {"time [s]", "s", grid_points({settings.start_s, *settings.period_s}, samples)});
+  table.columns.back().is_made = true;
   return table;
 }
 

@@ -9,9 +9,9 @@
 
 namespace flexarm::measured {
 
-/// The signal of a file of one number a row, and its times by the start and period in front of the
-/// samples; nothing for a file of another kind, or one that tells no period. `sample` has the first
-/// lines of `text`.
+/// The signal of a file of one number in each of ten rows or more, and its times where the lines in
+/// front of them tell a period; nothing for a file of another kind. `sample` has the first lines of
+/// `text`.
 std::optional<ForeignTable> single_signal_table(std::span<const TextLine> sample,
                                                 std::string_view text);
 

@@ -171,6 +171,15 @@ TEST_F(ImportJoin, FilesOfOneSignalHaveTheTimesOfTheirHeads) {
   write_rows("a.csv", fmt::format(fmt::runtime(keys), "torque", "Nm", -0.3), ",", 0);
   write_rows("b.csv", fmt::format(fmt::runtime(keys), "hub_angle", "rad", -0.2), ",", 100);
   EXPECT_EQ(matching_samples(files), kCommon);
+  write_rows("a.csv", "torque [N m]\n", "", 0);
+  write_rows("b.csv", "hub_angle [rad]\n", "", 0);
+  EXPECT_EQ(matching_samples({"a.csv", "b.csv", "--period", "0.002"}), 300U);
+  EXPECT_THAT(output_, HasSubstr("all files are taken to begin at one moment"));
+  EXPECT_THAT(import({"a.csv", "b.csv", "--join"}).errors,
+              HasSubstr("a.csv: --join needs a time and a signal or more in each file"));
+  write_pair(since_start, since_start);
+  expect_refused(import({"a.csv", "b.csv", "--join", "--period", "0.002"}),
+                 "a.csv: --period: not for a file that is joined by its own times, time");
   write_rows("a.csv", "CH1V,t0 = -0.3, tInc = 2.0e-03\n", ",,", 0);
   write_rows("b.csv", "CH1V,t0 = -0.2, tInc = 2.0e-03\n", ",,", 100);
   EXPECT_EQ(matching_samples({"a.csv", "b.csv", "--column", "torque=a.CH1V:V:1", "--column",

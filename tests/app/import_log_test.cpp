@@ -121,13 +121,13 @@ TEST_F(ImportLog, AFormulaOfTheCommandLineIsCheckedBeforeItIsUsed) {
   refused({"--torque", "2*omgea"},
           "--torque: expression = 2*omgea: column omgea: not in the file (did you mean omega?); it "
           "has t_s, V, omega, theta");
-  refused(
-      {"--torque", "V", "--compute", "hub_velocity [V]=omega"},
-      "--compute hub_velocity [V]=omega: unit = V: not one of rad/s, deg/s, mrad/s, rev/s, rpm; "
-      "give scale in rad/s per V");
+  refused({"--torque", "V", "--compute", "hub_velocity [V]=omega"},
+          "--compute hub_velocity [V]=omega: unit = V: not one of rad/s, deg/s, mrad/s, rev/s, "
+          "rpm, krpm, rad/min; "
+          "give scale in rad/s per V");
   refused({"--torque", "V", "--column", "torque=V:N m"}, "--torque: torque given twice");
   refused({"--torque", "V", "--time-unit", "rad"},
-          "--time-unit rad: must be s or ms or us or ns or min");
+          "--time-unit rad: must be s or ms or us or ns or min or h");
 }
 
 TEST_F(ImportLog, ColumnsMayBeTakenByNumberAndResultsHaveUnits) {

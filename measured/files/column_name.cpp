@@ -14,6 +14,9 @@ namespace {
 
 using std::string_view;
 
+/// Units that end names as words or indices more often: "torque_min", "tau_h", "force_ft".
+constexpr std::array<string_view, 8> kNoTails = {"1", "min", "h", "ft", "mil", "uN", "cN", "daN"};
+
 constexpr std::array<std::pair<char, char>, 3> kBrackets = {{{'[', ']'}, {'(', ')'}, {'{', '}'}}};
 
 /// The place of the bracket that the last one closes; npos without one.
@@ -108,7 +111,8 @@ ColumnName split_column_name(string_view header) {
   for (auto at = text.find_first_of("_ ", first); at != string_view::npos;
        at = text.find_first_of("_ ", at + 1)) {
     std::string unit = find_unit(text.substr(at + 1));
-    if (unit.empty() || unit == "1" || unit == "min") continue;
+    if (unit.empty() || std::ranges::count(kNoTails, string_view(unit)) > 0) continue;
+    if (text.substr(at + 1) == "in") continue;  // "torque_in" goes in
     return {std::string(without_in(text.substr(0, at))), std::move(unit)};
   }
   return {std::string(text), ""};

@@ -249,7 +249,8 @@ std::optional<PartColumn> part_of_column(const ForeignTable& table, std::size_t 
   const string_view field = field_of(table, column.name);
   ColumnName name = split_column_name(field);
   std::string unit = column.unit;
-  if (!is_part_unit(unit) && unit == name.unit && names_response(table, unit)) {
+  const bool is_hour = unit == "h";  // of Re(h)
+  if ((!is_part_unit(unit) || is_hour) && unit == name.unit && names_response(table, unit)) {
     name.base = std::string(field);
     unit.clear();
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 namespace flexarm::measured {
 
@@ -31,12 +32,32 @@ bool split_at(string_view text, std::size_t at, std::size_t size, ResponseUnit& 
   return true;
 }
 
+/// Endings that tell a response per N m, and what they leave of the unit.
+constexpr std::array<std::pair<string_view, string_view>, 9> kPerTorque = {{
+    {"*N^-1*m^-1", ""},
+    {" N^-1 m^-1", ""},
+    {"/(s N m)", "/s"},
+    {"/(N m s)", "/s"},
+    {"/(s*N*m)", "/s"},
+    {"/(N*m*s)", "/s"},
+    {"/(s^2 N m)", "/s^2"},
+    {"/(N m s^2)", "/s^2"},
+    {"/(N*m*s^2)", "/s^2"},
+}};
+
 }  // namespace
 
 ResponseUnit split_response_unit(string_view text) {
   const std::string whole = canonical_unit(text);
   ResponseUnit unit{whole, ""};
   if (is_canonical_unit(whole)) return unit;
+  const std::string plain = in_plain_signs(whole);
+  for (const auto& [ending, left] : kPerTorque) {
+    if (!plain.ends_with(ending)) continue;
+    const std::string front =
+        canonical_unit(plain.substr(0, plain.size() - ending.size()) + std::string(left));
+    if (is_canonical_unit(front)) return {front, "N m"};
+  }
   const string_view inside = whole;  // without brackets around
   constexpr string_view kPer = " per ";
   for (std::size_t at = inside.rfind('/'); at != string_view::npos && at > 0;

@@ -35,27 +35,36 @@ const std::vector<UnitWord>& unit_words() {
       {"us", {"usec", "usecs", "microsec", "microsecond", "microseconds", "micros"}},
       {"ns", {"nsec", "nanosecond", "nanoseconds", "nanos"}},
       {"min", {"minute", "minutes", "minuten"}},
+      {"h", {"hr", "hrs", "hour", "hours", "stunde", "stunden"}},
       {"m", {"meter", "meters", "metre", "metres"}},
       {"mm", {"millimeter", "millimeters", "millimetre", "millimetres"}},
       {"cm", {"centimeter", "centimeters", "centimetre", "centimetres"}},
       {"um", {"micron", "microns", "micrometer", "micrometers", "micrometre", "micrometres"}},
-      {"inch", {"inches"}},
+      {"inch", {"in", "inches"}},
+      {"ft", {"foot", "feet"}},
+      {"mil", {"mils"}},
       {"rad", {"rads", "radian", "radians"}},
       {"mrad", {"mrads", "milliradian", "milliradians"}},
+      {"urad", {"urads", "microradian", "microradians"}},
+      {"mdeg", {"millidegree", "millidegrees"}},
       {"deg", {"degs", "degree", "degrees", "grad", "degre", "degres"}},
       {"rev",
        {"revs", "revolution", "revolutions", "turn", "turns", "umdrehung", "umdrehungen", "umdr",
         "tour", "tours", "tr"}},
       {"rpm", {}},
+      {"krpm", {}},
       {"g", {"gn", "gee"}},
       {"mg", {}},
       {"N", {"newton", "newtons"}},
+      {"uN", {"micronewton", "micronewtons"}},
       {"mN", {"millinewton", "millinewtons"}},
+      {"cN", {}},
+      {"daN", {}},
       {"kN", {"kilonewton", "kilonewtons"}},
       {"MN", {"meganewton", "meganewtons"}},
       {"1", {"dimensionless"}},
-      {"ustrain", {"ue", "ustrains", "microstrain", "microstrains"}},
-      {"mstrain", {"millistrain"}},
+      {"ustrain", {"ue", "ustrains", "microstrain", "microstrains", "ppm"}},
+      {"mstrain", {"millistrain", "m\xce\xb5", "\xe2\x80\xb0"}},
       {"V", {"volt", "volts"}},
       {"mV", {"millivolt", "millivolts"}},
       {"A", {"amp", "amps", "ampere", "amperes"}},
@@ -83,29 +92,39 @@ const std::vector<CompoundUnit>& compound_units() {
       {"N cm", {{{"N", 1}, {"cm", 1}}}, {"Ncm"}},
       {"kN m", {{{"kN", 1}, {"m", 1}}}, {"kNm"}},
       {"MN m", {{{"MN", 1}, {"m", 1}}}, {"MNm"}},
+      {"uN m", {{{"uN", 1}, {"m", 1}}}, {"uNm"}},
+      {"cN m", {{{"cN", 1}, {"m", 1}}}, {"cNm"}},
+      {"daN m", {{{"daN", 1}, {"m", 1}}}, {"daNm"}},
+      {"gf cm", {}, {"gfcm", "gf*cm", "gf-cm", "gf.cm", "gcm", "g*cm", "g-cm", "g.cm"}},
       {"kgf cm", {}, {"kgfcm", "kgf*cm", "kgf-cm", "kgf.cm", "kgcm", "kg*cm", "kg-cm", "kg.cm"}},
       {"lbf in",
        {},
-       {"lbfin", "lbf*in", "lbf-in", "lbf.in", "lbin", "lb*in", "lb-in", "in-lb", "in-lbf",
-        "inlb"}},
+       {"lbfin", "lbf*in", "lbf-in", "lbf.in", "lbin", "lb*in", "lb-in", "in-lb", "in-lbf", "in*lb",
+        "in*lbf", "in.lbf", "inlb", "inlbf"}},
       {"lbf ft",
        {},
-       {"lbfft", "lbf*ft", "lbf-ft", "lbf.ft", "lbft", "lb*ft", "lb-ft", "ft-lb", "ft-lbf",
-        "ftlb"}},
-      {"ozf in", {}, {"ozfin", "ozf*in", "ozf-in", "ozf.in", "ozin", "oz*in", "oz-in", "in-oz"}},
+       {"lbfft", "lbf*ft", "lbf-ft", "lbf.ft", "lbft", "lb*ft", "lb-ft", "ft-lb", "ft-lbf", "ft*lb",
+        "ft*lbf", "ft.lbf", "ftlb", "ftlbf"}},
+      {"ozf in",
+       {},
+       {"ozfin", "ozf*in", "ozf-in", "ozf.in", "ozin", "oz*in", "oz-in", "in-oz", "in*oz", "in-ozf",
+        "in*ozf", "inoz", "inozf"}},
       {"rad/s", {{{"rad", 1}, {"s", -1}}}, {"rad_s", "rads_s", "rads-1", "rads^-1"}},
       {"mrad/s", {{{"mrad", 1}, {"s", -1}}}, {"mrad_s"}},
       {"deg/s", {{{"deg", 1}, {"s", -1}}}, {"deg_s", "degs_s", "dps"}},
+      {"rad/min", {{{"rad", 1}, {"min", -1}}}, {"rad_min"}},
       {"rev/s", {{{"rev", 1}, {"s", -1}}}, {"rps", "rev_s"}},
       {"rpm", {{{"rev", 1}, {"min", -1}}}, {"1/min", "min-1", "min^-1", "rev_min", "u/min"}},
       {"m/s^2", {{{"m", 1}, {"s", -2}}}, {"m_s2", "ms-2", "ms^-2", "mps2"}},
       {"mm/s^2", {{{"mm", 1}, {"s", -2}}}, {"mm_s2"}},
       {"cm/s^2", {{{"cm", 1}, {"s", -2}}}, {"cm_s2"}},
+      {"in/s^2", {{{"inch", 1}, {"s", -2}}}, {}},
+      {"ft/s^2", {{{"ft", 1}, {"s", -2}}}, {}},
       {"m/s", {{{"m", 1}, {"s", -1}}}, {"m_s", "mps"}},
       {"mm/s", {{{"mm", 1}, {"s", -1}}}, {"mm_s"}},
-      {"ustrain", {{{"um", 1}, {"m", -1}}}, {"um_m"}},
+      {"ustrain", {{{"um", 1}, {"m", -1}}}, {"um_m", "uin/in"}},
       {"mstrain", {{{"mm", 1}, {"m", -1}}}, {"mm_m"}},
-      {"1", {}, {"-", "m/m"}},
+      {"1", {}, {"-", "m/m", "mm/mm", "in/in", "\xce\xb5"}},
   };
   return units;
 }
@@ -298,11 +317,13 @@ std::string in_plain_signs(string_view text) {
 std::string find_unit(string_view text) {
   static const SpelledUnits as_written = spelled_units(false);
   static const SpelledUnits in_lower = spelled_units(true);
-  const string_view typed = trimmed(text);
+  string_view typed = trimmed(text);
   if (typed.size() > kLongestUnit) return {};
+  if (typed.size() > 2 && typed.ends_with('.')) typed.remove_suffix(1);  // "sec.", "Deg."
   const std::string plain = in_plain_signs(typed);
   string_view unit = find_spelled(plain, as_written);
-  // A capital tells S (siemens), G (gauss) or M apart: units of one letter are not folded.
+  // A capital tells S (siemens), G (gauss, or a response) or M apart: units of one letter are not
+  // folded.
   if (unit.empty() && plain.size() != 1 && !has_mega(plain))
     unit = find_spelled(in_lower_case(plain), in_lower);
   return std::string(unit);

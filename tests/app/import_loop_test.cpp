@@ -195,10 +195,10 @@ TEST_F(ImportLoop, WhatIsNoLoopIsOneLine) {
   refused({"--reference", "cmd_deb", "--controller", "kp=1"},
           "--reference cmd_deb: column cmd_deb: not in the file (did you mean cmd_deg?); it has "
           "t_s, i_A, counts, speed_rad_s, cmd_deg");
-  refused(
-      {"--reference", "cmd_deg", "--controller", "sensor=hub_velocity,kp=1"},
-      "--reference cmd_deg: unit = deg: not one of rad/s, deg/s, mrad/s, rev/s, rpm; give scale "
-      "in rad/s per deg");
+  refused({"--reference", "cmd_deg", "--controller", "sensor=hub_velocity,kp=1"},
+          "--reference cmd_deg: unit = deg: not one of rad/s, deg/s, mrad/s, rev/s, rpm, krpm, "
+          "rad/min; give scale "
+          "in rad/s per deg");
   refused({"--reference", "cmd_deg", "--column", "reference=counts", "--controller", "kp=1"},
           "--column reference=counts: reference given twice");
   refused({"--reference", "cmd_deg", "--controller", "kp=1,sample_time=0.003"},

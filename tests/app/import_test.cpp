@@ -230,7 +230,7 @@ TEST_F(Import, WhatCannotBeUsedIsOneLine) {
   refused({"--column", "torque=Room:V"},
           "--column torque=Room:V: unit = V: not one of N m, N mm, N cm, kN m, MN m, kgf cm, lbf "
           "in, lbf "
-          "ft, ozf in; give scale in N m per V");
+          "ft, ozf in, uN m, cN m, daN m, gf cm; give scale in N m per V");
   refused({"--column", "torque=Room:V:x"},
           "--column torque=Room:V:x: scale = x: must be a product of numbers and pi, as "
           "in 0.202*pi/180");

@@ -172,7 +172,7 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "7: run.columns.torque.unit = V: not one of N m, N mm, N cm, kN m, MN m, kgf cm, lbf in, lbf "
      "ft, "
      "ozf "
-     "in; give scale in N m per V"},
+     "in, uN m, cN m, daN m, gf cm; give scale in N m per V"},
     {"NameBesideExpression",
      kMeasurementHead + kRun + "columns = { torque = { name = \"Vm\", expression = \"2*Vm\" } }\n",
      "7: run.columns.torque.expression: given beside name; only one of the two"},
@@ -181,7 +181,7 @@ const std::vector<Mistake> kMeasurementMistakes = {
      "7: run.columns.torque.expression = 0.1*(V - w: a parenthesis is not closed"},
     {"ExpressionInAForeignUnit",
      kMeasurementHead + kRun + "columns = { time = { expression = \"V\", unit = \"A\" } }\n",
-     "7: run.columns.time.unit = A: not one of s, ms, us, ns, min; give scale in s per A"},
+     "7: run.columns.time.unit = A: not one of s, ms, us, ns, min, h; give scale in s per A"},
     {"ScaleOfTheUnitTwice",
      kMeasurementHead + kRun +
          "columns = { time = { name = \"t\", unit = \"ms\", scale = 0.001 } }\n",

@@ -361,6 +361,9 @@ TEST(ResponseUnit, UnitsAreTakenApart) {
   expect("g/N", "g", "N");
   expect("ustrain/Nmm", "ustrain", "N mm");
   expect("1/(N m)", "1", "N m");
+  expect("rad\xc2\xb7N\xe2\x81\xbb\xc2\xb9\xc2\xb7m\xe2\x81\xbb\xc2\xb9", "rad", "N m");
+  expect("rad/(s N m)", "rad/s", "N m");
+  expect("m/(N m s^2)", "m/s^2", "N m");
   expect("rad/s", "rad/s", "");
   expect("m/s^2", "m/s^2", "");
   expect("rad", "rad", "");

@@ -20,11 +20,11 @@ struct Spelled {
 
 TEST(UnitSpelling, EveryUsualOneIsKnown) {
   const std::vector<Spelled> table = {
-      {"s", {"s", "sec", "Seconds", "SEC"}},
+      {"s", {"s", "sec", "sec.", "Seconds", "SEC"}},
       {"ms", {"ms", "msec", "milliseconds", "MS"}},
       {"us", {"us", "\xc2\xb5s", "\xce\xbcs", "microseconds"}},
       {"rad", {"rad", "rads", "Radians"}},
-      {"deg", {"deg", "\xc2\xb0", "degrees", "Deg"}},
+      {"deg", {"deg", "\xc2\xb0", "degrees", "Deg", "Deg."}},
       {"rad/s",
        {"rads/s", "rad/sec", "rad s-1", "rad.s^-1", "rad*s**-1", "radians per second", "rad_per_s",
         "RAD/S", "rad s\xe2\x81\xbb\xc2\xb9", "rad / s"}},
@@ -37,7 +37,32 @@ TEST(UnitSpelling, EveryUsualOneIsKnown) {
       {"m/s^2", {"m/s2", "m/s\xc2\xb2", "m/s/s", "m s^-2", "ms-2", "m/s**2", "m/sec^2"}},
       {"mm/s^2", {"mm/s2", "mm/s^2"}},
       {"g", {"g", "gn"}},
-      {"ustrain", {"\xc2\xb5\xce\xb5", "\xce\xbcm/m", "microstrain", "um/m", "\xc2\xb5strain"}},
+      {"uN m", {"\xc2\xb5Nm", "uN m"}},
+      {"cN m", {"cNm", "cN m"}},
+      {"daN m", {"daNm", "daN*m"}},
+      {"gf cm",
+       {"gf cm",
+        "g\xc2\xb7"
+        "cm",
+        "gf*cm"}},
+      {"lbf ft",
+       {"ft\xc2\xb7lbf",
+        "lbf\xc2\xb7"
+        "ft",
+        "ft-lb"}},
+      {"mdeg", {"mdeg"}},
+      {"urad", {"\xc2\xb5rad", "urad"}},
+      {"krpm", {"krpm"}},
+      {"rad/min", {"rad/min"}},
+      {"in/s^2", {"in/s^2", "in/s\xc2\xb2"}},
+      {"ft/s^2", {"ft/s2"}},
+      {"inch", {"in", "inches"}},
+      {"mil", {"mil"}},
+      {"mstrain", {"\xe2\x80\xb0", "m\xce\xb5"}},
+      {"h", {"h", "hours"}},
+      {"ustrain",
+       {"\xc2\xb5\xce\xb5", "\xce\xbcm/m", "microstrain", "um/m", "\xc2\xb5strain", "ppm",
+        "\xc2\xb5in/in"}},
       {"V", {"V", "volts", "Volt"}},
       {"mV", {"mV", "millivolts"}},
       {"A", {"A", "amps"}},
@@ -48,8 +73,8 @@ TEST(UnitSpelling, EveryUsualOneIsKnown) {
 }
 
 TEST(UnitSpelling, WhatIsNoUnitIsNone) {
-  for (const char* text :
-       {"", "S", "M", "furlong", "rad s", "s/s", "m/s^", "theta", "N/m/", "rad//s", "m^12"}) {
+  for (const char* text : {"", "S", "M", "G", "H", "furlong", "rad s", "s/s", "m/s^", "theta",
+                           "N/m/", "rad//s", "m^12"}) {
     EXPECT_EQ(find_unit(text), "") << text;
   }
 }
@@ -81,6 +106,9 @@ TEST(UnitSpelling, UnitsStandInHeadersInManyWays) {
   expect("theta(2)", "theta(2)", "");
   expect("strain@0.05 [1]", "strain@0.05", "1");
   expect("torque_min", "torque_min", "");
+  expect("torque_in", "torque_in", "");
+  expect("tau_h", "tau_h", "");
+  expect("Deflection [in]", "Deflection", "inch");
 }
 
 /// Each blank may stand in front of a unit: the time must not grow with the square of their number.

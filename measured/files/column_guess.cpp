@@ -233,8 +233,8 @@ std::vector<ColumnCandidate> by_unit(std::span<const ColumnLabel> columns,
 std::string quantity_name(string_view name) {
   std::string base = split_column_name(name).base;
   for (auto point = base.rfind('.'); point != std::string::npos; point = base.rfind('.')) {
-    // "Beschl." is no structure.
-    if (point + 1 >= base.size() || standard(base)) return base;
+    // Neither "Beschl." nor "max. Moment" is a structure.
+    if (point + 1 >= base.size() || base[point + 1] == ' ' || standard(base)) return base;
     if (!is_holder(string_view(base).substr(point + 1))) return base.substr(point + 1);
     base.resize(point);
   }

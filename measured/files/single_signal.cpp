@@ -23,9 +23,17 @@ constexpr std::size_t kFewestSingles = 10;
 constexpr std::size_t kLongestHead = 100;
 constexpr char kPoint = '.';
 
+/// Whether text stands behind a cell in quotes, which a splitter leaves out.
+bool has_text_behind_quotes(std::string_view line) {
+  const auto quote = line.rfind('"');
+  return quote != std::string_view::npos &&
+         line.find_first_not_of(" \t,;\r", quote + 1) != std::string_view::npos;
+}
+
 /// The only cell of a line that is not empty, valid until the next line is split; nothing for
 /// several and for none.
 std::optional<std::string_view> single_cell(std::string_view line, LineSplitter& splitter) {
+  if (has_text_behind_quotes(line)) return std::nullopt;
   std::optional<std::string_view> found;
   for (const auto cell : splitter.split(line)) {
     if (cell.empty()) continue;

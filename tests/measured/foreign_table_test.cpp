@@ -285,6 +285,14 @@ TEST(ForeignTable, NamesOfOneFewerThanColumnsBelongToTheLastWhereTheFirstNumbers
   }
 }
 
+TEST(ForeignTable, QuotedNamesOfRowsAreNoFileOfOneSignal) {
+  std::string text = "\"time\" \"u\" \"y\"\n";
+  for (int row = 1; row <= 20; ++row) {
+    text += fmt::format("\"{}\" {} 0.5 {}\n", row, 0.002 * row, row % 3);
+  }
+  EXPECT_EQ(parse_foreign_table(text, "log").columns.size(), 4U);
+}
+
 TEST(ForeignTable, ALineOfUnitsMayStandAboveTheNames) {
   const auto table =
       parse_foreign_table("bench\ns,mNm,deg\ntime,torque,angle\n0,1,2\n1,1,2\n", "log");

@@ -19,11 +19,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestMeasuredFile_bytes = std::size_t{1} << 28U;
 
-/// What `--measured` takes.
+/// The kinds of file that `--measured` takes, as an error names them.
 constexpr const char* kMeasuredFile =
     "must be a modal table or frequency responses (CSV), or a measurement.toml, whose time runs "
-    "are "
-    "simulated";
+    "are simulated";
 
 bool is_frequency_record(const std::string& file) {
   const std::string text = measured::read_text_file(file, kLargestMeasuredFile_bytes);

@@ -53,8 +53,8 @@ std::vector<std::optional<std::complex<double>>> match(
 std::vector<std::optional<std::complex<double>>> match_nearest(
     std::span<const std::complex<double>> reference, std::span<const std::complex<double>> found);
 
-/// The same where `take(i, j)` says whether reference root i and root j of `found` are paired: it
-/// is asked of the nearest first, while neither has another.
+/// Pairs roots as `match_nearest` does, where `take(i, j)` decides whether reference root i and root
+/// j of `found` are a pair: it is asked of the nearest first, while neither has another.
 void pair_nearest(std::span<const std::complex<double>> reference,
                   std::span<const std::complex<double>> found,
                   const std::function<bool(std::size_t, std::size_t)>& take);

@@ -111,7 +111,7 @@ struct Diagnosis {
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
 
-/// What a report can do without is computed until so long after the deadline.
+/// Time after the deadline in which optional parts of a report are still computed.
 inline constexpr std::chrono::seconds kReportTime{1};
 
 }  // namespace flexarm::diagnose

@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Of each run: a search begins with the arm that it was decided by, and a report with the one that
-/// the search ended with.
+/// Arms whose readings are kept for each run: a search begins with the arm that it was decided by,
+/// and a report with the one that the search ended with.
 constexpr std::size_t kKeptReadings = 1;
 
 std::vector<arm::Sensor> sensors_of(const measured::TimeRecord& record) {

@@ -21,7 +21,7 @@ struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
   /// Of `time` runs: stochastic grey box with it, output error without.
   std::optional<NoiseModel> noise = {};
-  /// Of its evaluations (Predictor); those that choose the modes end half-way to it.
+  /// Ends its evaluations (Predictor); those that choose the modes end half-way to it.
   arm::Deadline deadline = {};
 };
 

@@ -13,11 +13,10 @@ namespace flexarm::measured {
 /// or the clock. A finding is then the arm's, not the record's.
 ///
 /// Records are compared by described_distance over their first `kMostJudged` samples, where both
-/// signals are coherent. The best
-/// single variation is compared with the described arm, and the best two with it and the best one:
-/// each side has as many numbers to choose. Against a sign a single variation that brings the
-/// arm three times nearer than the finding does is enough. False without variations, true where
-/// options.deadline leaves it undecided.
+/// signals are coherent. The best single variation is compared with the described arm, and the best
+/// two with it and the best one: each side has as many numbers to choose. Against a sign a single
+/// variation that brings the arm three times nearer than the finding does is enough. False without
+/// variations, true where options.deadline leaves it undecided.
 bool other_arm_explains_more(std::span<const CheckedSignal> signals,
                              const std::vector<bool>& usable, double period_s, bool from_rest,
                              const std::vector<DataFinding>& found,

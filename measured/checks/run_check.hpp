@@ -43,7 +43,7 @@ struct RunFinding {
 ///
 /// Runs with a finding in their times are left out, and channels with one. For payloads, runs with
 /// one in their torque are left out as well.
-/// What the deadline leaves undecided is not found.
+/// A fault that the deadline leaves undecided is not found.
 std::vector<RunFinding> check_runs(const std::vector<CheckedRun>& runs, const DescribedArms& arms,
                                    const arm::Deadline& deadline = {});
 

@@ -60,7 +60,7 @@ bool is_place_unclear(string_view base) {
   return quantity && is_doubtful_place(*quantity) && base.back() >= '0' && base.back() <= '9';
 }
 
-/// What the name of a column does to its quantity; x2 alone has nothing.
+/// Returns the change that the name of a column makes of its quantity; none for x2 alone.
 std::optional<NameChange> change_of(const ColumnLabel& label) {
   const ColumnName name = split_column_name(label.name);
   auto change = change_in(name.base);
@@ -112,7 +112,7 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
   return found;
 }
 
-/// What is to be asked about a column whose name changes a quantity.
+/// Returns the question about a column whose name changes a quantity.
 ColumnQuestion question_of_change(const ColumnLabel& label, const NameChange& change,
                                   string_view quantity) {
   const std::string name = arm::shown(split_column_name(label.name).base);
@@ -200,7 +200,7 @@ std::string not_motor_torque(const ColumnLabel& label) {
   return other_torque_word(label.name);
 }
 
-/// What is to be asked about a column in a unit of torque that is another one by its name.
+/// Returns the question about a column in a unit of torque that is another one by its name.
 std::optional<ColumnQuestion> question_about_torque(const ColumnLabel& label) {
   if (label.unit.empty() || !is_unit_of("torque", label.unit)) return std::nullopt;
   const std::string word = not_motor_torque(label);

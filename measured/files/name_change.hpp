@@ -6,7 +6,7 @@
 
 namespace flexarm::measured {
 
-/// Kinds of what a name does to the quantity that it names.
+/// Kinds of changes that a name makes of the quantity that it names.
 enum class ChangeKind {
   factor,      ///< "Angle*100", "tau/10", a power, "theta^2"
   number,      ///< "1/tau", "180-theta", "theta+90"
@@ -16,7 +16,7 @@ enum class ChangeKind {
   reference    ///< "theta*"
 };
 
-/// What a name does to its quantity, and the name without it.
+/// A change that a name makes of its quantity, and the name without it.
 struct NameChange {
   ChangeKind kind = ChangeKind::factor;
   std::string mark;  ///< "*100"

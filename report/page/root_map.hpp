@@ -35,8 +35,7 @@ void add_poles(MapBlock& map, const MapSeries& series,
 void add_zeros(MapBlock& map, const MapSeries& series,
                const std::vector<std::vector<std::complex<double>>>& roots_rad_per_s);
 
-/// Those zeros of which a root is within `to_rad_per_s` of 0; the others without roots, so that
-/// numbers stay.
+/// Returns the zeros, without the roots of those that lie beyond `to_rad_per_s`: numbers stay.
 std::vector<std::vector<std::complex<double>>> zeros_up_to(
     std::vector<std::vector<std::complex<double>>> roots_rad_per_s, double to_rad_per_s);
 

@@ -26,7 +26,7 @@ std::string measured_summary(const std::vector<compare::MeasuredRow>& rows);
 /// Fit and NRMSE of each signal of the `time` runs beside their simulation.
 Table measured_runs_table(const std::vector<compare::MeasuredTimeRun>& runs);
 
-/// What the time limit left no time for; empty where it left out nothing.
+/// Returns a sentence on the work that the time limit left no time for; empty without any.
 std::string out_of_time_text(const compare::Comparison& comparison,
                              const compare::MeasuredComparison& measured);
 

@@ -25,7 +25,7 @@ inline bool is_non_minimum_phase(std::optional<double> damping_ratio,
   return damping_ratio && *damping_ratio + kSurelyRight * standard_error.value_or(0.0) < 0.0;
 }
 
-/// The same of a zero of a fit; of a real one by the standard error of its size.
+/// True for such a zero of a fit; a real one is judged by the standard error of its size.
 inline bool is_non_minimum_phase(const measured::FittedZero& zero) {
   const double real_rad_per_s = zero.s_rad_per_s.real();
   if (zero.s_rad_per_s.imag() != 0.0) {

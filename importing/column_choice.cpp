@@ -56,14 +56,7 @@ struct TypedColumn {
 
 /// NAME, NAME:UNIT or NAME:UNIT:SCALE; a name may hold colons, so that the file tells which it is.
 TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> columns) {
-  const std::vector<std::string> names = names_of(columns);
-  const auto place_of = [&](std::string_view typed) {
-    const auto by_path = std::ranges::find(columns, typed, &ColumnLabel::path);
-    return by_path == columns.end() || typed.empty()
-               ? measured::column_place(names, typed)
-               : std::optional(static_cast<std::size_t>(by_path - columns.begin()));
-  };
-  auto place = place_of(text);
+  auto place = measured::column_place(columns, text);
   std::string_view name = text;
   std::string_view unit;
   std::string_view scale;
@@ -71,11 +64,11 @@ TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> colu
     const auto parts = split_at_colon(text, colons);
     if (!parts) break;
     name = parts->first;
-    place = place_of(name);
+    place = measured::column_place(columns, name);
     unit = parts->second.substr(0, parts->second.find(':'));
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
-  if (!place) throw measured::unknown_column(names, text.substr(0, text.find(':')));
+  if (!place) throw measured::unknown_column(names_of(columns), text.substr(0, text.find(':')));
   return {*place, name, unit, scale};
 }
 

@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_expression.hpp"
-#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/unit_spelling.hpp"
 
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <optional>
 #include <string_view>
 
 namespace flexarm::importing {
@@ -20,14 +18,6 @@ namespace {
 
 using measured::ColumnLabel;
 using measured::ColumnMapping;
-
-std::optional<std::size_t> place_of_label(std::span<const ColumnLabel> columns,
-                                          std::span<const std::string> names,
-                                          const std::string& name) {
-  const auto by_path = std::ranges::find(columns, name, &ColumnLabel::path);
-  if (by_path == columns.end() || name.empty()) return measured::column_place(names, name);
-  return static_cast<std::size_t>(by_path - columns.begin());
-}
 
 /// Whether a number or pi stands in an expression, besides the names of its columns.
 bool has_number(std::string_view expression) {
@@ -82,7 +72,7 @@ std::vector<std::string> unit_contradictions(const measured::ColumnMappings& map
   };
   for (const auto& [quantity, mapping] : mappings) {
     if (mapping.expression.empty()) {
-      const auto place = place_of_label(columns, names, mapping.name);
+      const auto place = measured::column_place(columns, mapping.name);
       if (place && contradicts(quantity, mapping, columns[*place].unit)) {
         add(quantity, mapping, columns[*place]);
       }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <complex>
 #include <functional>
+#include <utility>
 
 namespace flexarm::measured {
 
@@ -83,31 +84,41 @@ DescribedStretch::DescribedStretch(std::span<const CheckedSignal> signals,
   }
 }
 
-double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
-                          const Transforms& recorded, const DescribedArm& arm,
-                          CountedBlocks counted) {
-  const auto values = readings_of(signals, recorded.period_s, arm);
-  if (values.empty()) return 1.0;
-  const auto x = all_lines(signals, recorded);
-  const auto y = all_lines(signals, transforms_of(signals, values, recorded));
-  double sum = 0.0;
-  double count = 0.0;
+RecordedLines::RecordedLines(std::span<const CheckedSignal> signals,
+                             const std::vector<bool>& usable, const Transforms& recorded,
+                             CountedBlocks counted)
+    : signals_(signals), recorded_(&recorded), lines_(all_lines(signals, recorded)) {
   for (std::size_t a = 1; a < signals.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (!usable[a] || !usable[b]) continue;
       std::vector<bool> blocks;
       if (counted == CountedBlocks::coherent) {
         blocks = coherent_among_blocks(
-            recorded, [&](std::size_t bin) { return x[a][bin]; },
-            [&](std::size_t bin) { return x[b][bin]; });
+            recorded, [&](std::size_t bin) { return lines_[a][bin]; },
+            [&](std::size_t bin) { return lines_[b][bin]; });
         if (std::ranges::none_of(blocks, std::identity())) continue;
       }
-      const auto [left, right] = sides(x, y, a, b);
-      sum += distance(recorded, left, right, blocks);
-      count += 1.0;
+      pairs_.push_back({a, b, std::move(blocks)});
     }
   }
-  return count > 0.0 ? sum / count : 1.0;
+}
+
+double RecordedLines::distance_from(const DescribedArm& arm) const {
+  if (pairs_.empty()) return 1.0;
+  const auto values = readings_of(signals_, recorded_->period_s, arm);
+  if (values.empty()) return 1.0;
+  const auto described = all_lines(signals_, transforms_of(signals_, values, *recorded_));
+  double sum = 0.0;
+  for (const Pair& pair : pairs_) {
+    const auto [left, right] = sides(lines_, described, pair.a, pair.b);
+    sum += distance(*recorded_, left, right, pair.counted);
+  }
+  return sum / static_cast<double>(pairs_.size());
+}
+
+double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
+                          const Transforms& recorded, const DescribedArm& arm) {
+  return RecordedLines(signals, usable, recorded, CountedBlocks::all).distance_from(arm);
 }
 
 }  // namespace flexarm::measured

@@ -4,6 +4,8 @@
 #include "measured/checks/data_check_signal.hpp"
 #include "measured/checks/described_arm.hpp"
 
+#include <complex>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -41,9 +43,33 @@ enum class CountedBlocks {
   coherent,  ///< those in which both recorded signals are coherent: the others hold noise
 };
 
-/// The mean `distance` of both sides of these relations of all usable pairs; 1 without any.
+/// The lines of a record's signals, for distances from many arms.
+class RecordedLines {
+ public:
+  /// `recorded` are the transforms of `signals`; both must outlive the object.
+  RecordedLines(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
+                const Transforms& recorded, CountedBlocks counted);
+
+  /// Returns the mean `distance` of both sides of these relations of all usable pairs; 1 without
+  /// any, and for an arm that reads nothing.
+  double distance_from(const DescribedArm& arm) const;
+
+ private:
+  using Lines = std::vector<std::complex<double>>;
+  struct Pair {
+    std::size_t a = 0;
+    std::size_t b = 0;
+    std::vector<bool> counted;  ///< one a block; empty: all
+  };
+
+  std::span<const CheckedSignal> signals_;
+  const Transforms* recorded_;
+  std::vector<Lines> lines_;  ///< one a signal
+  std::vector<Pair> pairs_;
+};
+
+/// Returns the distance of a record from one arm, with all blocks.
 double described_distance(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
-                          const Transforms& recorded, const DescribedArm& arm,
-                          CountedBlocks counted = CountedBlocks::all);
+                          const Transforms& recorded, const DescribedArm& arm);
 
 }  // namespace flexarm::measured

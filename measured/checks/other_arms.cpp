@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace flexarm::measured {
 
@@ -31,7 +32,7 @@ class JudgedRecord {
   JudgedRecord(std::span<const CheckedSignal> signals, const std::vector<bool>& usable,
                double period_s, bool from_rest, const std::vector<DataFinding>& faults,
                const arm::Deadline& deadline)
-      : signals_(signals.begin(), signals.end()), usable_(usable), deadline_(deadline) {
+      : signals_(signals.begin(), signals.end()), deadline_(deadline) {
     values_.resize(signals_.size());
     for (std::size_t i = 0; i < signals_.size(); ++i) {
       const auto part = signals[i].values.first(std::min(signals[i].values.size(), kMostJudged));
@@ -48,13 +49,15 @@ class JudgedRecord {
       signals_[i].deviation = standard_deviation(values_[i]);
     }
     transforms_ = transform(signals_, period_s, from_rest);
+    lines_.emplace(signals_, usable, transforms_, CountedBlocks::coherent);
   }
+  JudgedRecord(const JudgedRecord&) = delete;  // signals and lines refer to it
+  JudgedRecord& operator=(const JudgedRecord&) = delete;
 
   /// Throws Cancelled after the deadline.
   double distance(const DescribedArm& arm) const {
     arm::require_time(deadline_);
-    return arm ? described_distance(signals_, usable_, transforms_, arm, CountedBlocks::coherent)
-               : 1.0;
+    return arm ? lines_->distance_from(arm) : 1.0;
   }
 
  private:
@@ -71,9 +74,9 @@ class JudgedRecord {
 
   std::vector<CheckedSignal> signals_;
   std::vector<std::vector<double>> values_;
-  std::vector<bool> usable_;
   arm::Deadline deadline_;
   Transforms transforms_;
+  std::optional<RecordedLines> lines_;
 };
 
 struct Explained {

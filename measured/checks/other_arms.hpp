@@ -12,7 +12,7 @@ namespace flexarm::measured {
 /// arm explains it without the faults that were `found` by that arm: signs, units, scales, delays
 /// or the clock. A finding is then the arm's, not the record's.
 ///
-/// Records are compared by described_distance over their first `kMostJudged` samples, where both
+/// Records are compared by RecordedLines over their first `kMostJudged` samples, where both
 /// signals are coherent. The best single variation is compared with the described arm, and the best
 /// two with it and the best one: each side has as many numbers to choose. Against a sign a single
 /// variation that brings the arm three times nearer than the finding does is enough. False without

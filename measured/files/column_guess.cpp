@@ -241,6 +241,16 @@ std::string quantity_name(string_view name) {
   return base;
 }
 
+std::optional<std::size_t> column_place(std::span<const ColumnLabel> columns, string_view typed) {
+  const auto by_path = std::ranges::find(columns, typed, &ColumnLabel::path);
+  if (by_path != columns.end() && !typed.empty()) {
+    return static_cast<std::size_t>(by_path - columns.begin());
+  }
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  return column_place(names, typed);
+}
+
 std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
   std::vector<ColumnLabel> labels;
   for (const auto& column : table.columns) {

@@ -2,7 +2,9 @@
 
 #include "measured/files/column_mapping.hpp"
 
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +24,11 @@ struct ColumnLabel {
 /// The name of a column without its unit and the structure that it is a field of: "torque" of
 /// "log.torque.values [N m]".
 std::string quantity_name(std::string_view name);
+
+/// Returns the place of the column that `typed` stands for: by its path, else by its name
+/// (column_lookup.hpp). Empty where there is none.
+std::optional<std::size_t> column_place(std::span<const ColumnLabel> columns,
+                                        std::string_view typed);
 
 /// The labels of the columns of a table; one without a number, or left out, is as one of text.
 std::vector<ColumnLabel> labels_of(const ForeignTable& table);

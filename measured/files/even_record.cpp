@@ -41,14 +41,6 @@ constexpr double kMostUncertainty = 1e-3;
 /// Times of a grid that lie closer, in periods, differ by rounding.
 constexpr double kSameTime_periods = 1e-6;
 
-std::size_t repeats_in(std::span<const double> times_s) {
-  std::size_t repeats = 0;
-  for (std::size_t k = 1; k < times_s.size(); ++k) {
-    if (times_s[k] == times_s[k - 1]) ++repeats;
-  }
-  return repeats;
-}
-
 /// The last digit of the times, 0.001 s; empty where they have more digits than looked for.
 std::optional<double> last_digit_s(std::span<const double> times_s) {
   for (int digits = 0; digits <= kMostDigits; ++digits) {
@@ -110,6 +102,7 @@ PeriodRange periods_within(std::span<const double> times_s, double period_s, dou
 
 /// Samples of equal times.
 struct EqualTimes {
+  std::size_t repeats = 0;      ///< with the time of the sample before
   std::size_t most = 1;         ///< at one time
   double share = 0.0;           ///< of the times, but the first and last, that have as many
   bool differ = false;          ///< in torque, reference or a sensor, at one time
@@ -127,6 +120,7 @@ EqualTimes equal_times(const TimeRecord& record) {
       continue;
     }
     ++counts.back();
+    ++equal.repeats;
     const auto changes = [&](const std::vector<double>& values) {
       return !values.empty() && values[k] != values[k - 1];
     };
@@ -301,7 +295,6 @@ class EvenMaker {
     if (!digit_s || times_s.back() <= times_s.front()) return false;
     const ClockSteps steps = even_steps(times_s.size());
     const Jitter jitter = jitter_of(times_s, steps, 0, times_s.size(), kMostJitter_periods);
-    const double repeats = static_cast<double>(repeats_in(times_s));
     const EqualTimes equal = equal_times(part);
     const bool do_all_repeat = equal.most > 1 && equal.share == 1.0;
     constexpr double kOneDigit = 1.5;  // a period of half a digit makes no step of two
@@ -312,7 +305,8 @@ class EvenMaker {
     const bool is_rounding = jitter.range_periods * jitter.period_s <= kMostRounding * *digit_s &&
                              !is_of_several && !is_copied &&
                              (*digit_s <= kCoarsestDigit_periods * jitter.period_s ||
-                              repeats >= kFewestRepeats * static_cast<double>(times_s.size()));
+                              static_cast<double>(equal.repeats) >=
+                                  kFewestRepeats * static_cast<double>(times_s.size()));
     if (!is_rounding) return false;
     if (do_all_repeat) refuse_equal_times(equal, *digit_s);
     const PeriodRange range = periods_within(times_s, jitter.period_s, *digit_s);
@@ -344,9 +338,9 @@ class EvenMaker {
   }
 
   void leave_out_repeats(TimeRecord& part) {
-    const std::size_t repeats = repeats_in(part.time_s);
-    if (repeats == 0) return;
     const EqualTimes equal = equal_times(part);
+    const std::size_t repeats = equal.repeats;
+    if (repeats == 0) return;
     const bool are_many =
         static_cast<double>(repeats) >= kMostRepeats * static_cast<double>(part.time_s.size());
     const bool is_running = part.time_s.back() > part.time_s.front();

@@ -209,7 +209,7 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
   const MatNames names(variables, file.left_out);
   const auto frequencies = frequencies_in(variables, names);
   std::vector<JsonNumber> singles;
-  std::vector<JsonUnit> single_units;
+  std::vector<KeyedUnit> single_units;
   const std::size_t lines = frequencies ? frequencies->values.size() : 0;
   for (const auto& variable : variables) {
     if (is_description(variable.name)) continue;
@@ -247,7 +247,8 @@ void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {
       if (is_beside && !sentence.empty()) file.table.assumptions.push_back(sentence);
       const std::string key = variable.name.substr(variable.name.rfind('.') + 1);
       singles.push_back({key, fmt::format("{}", one->values.front()), phrase});
-      single_units.push_back({"", key, names.keyed_units().of(variable.name)});
+      const auto* unit = names.keyed_units().find(variable.name);
+      single_units.push_back({"", key, unit == nullptr ? "" : unit->text});
     }
     // What structures say of their signals is no signal.
     if (names.keyed_units().is_placed(variable.name)) continue;

@@ -2,7 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_words.hpp"
-#include "measured/files/json_units.hpp"
+#include "measured/files/keyed_units.hpp"
 
 #include <fmt/format.h>
 

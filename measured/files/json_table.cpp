@@ -4,12 +4,14 @@
 #include "arm/number.hpp"
 #include "measured/files/column_builder.hpp"
 #include "measured/files/column_name.hpp"
+#include "measured/files/column_words.hpp"
 #include "measured/files/json_reading.hpp"
 #include "measured/files/json_signals.hpp"
 #include "measured/files/json_times.hpp"
-#include "measured/files/json_units.hpp"
+#include "measured/files/keyed_units.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/signal_factors.hpp"
+#include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -65,6 +67,38 @@ bool is_of_units(const Json& value) {
          });
 }
 
+/// Columns in the object of a unit without a key: those that hold values where there are several.
+std::vector<ForeignColumn*> columns_beside(const KeyedUnit& unit,
+                                           std::vector<ForeignColumn>& columns) {
+  std::vector<ForeignColumn*> beside;
+  std::vector<ForeignColumn*> holders;
+  const std::string front = unit.path.empty() ? "" : unit.path + ".";
+  for (auto& column : columns) {
+    if (!column.name.starts_with(front) || column.name == front || column.is_text()) continue;
+    beside.push_back(&column);
+    if (is_holder(string_view(column.name).substr(front.size()))) holders.push_back(&column);
+  }
+  if (beside.size() < 2) return beside;
+  if (!holders.empty()) return holders;
+  if (!is_canonical_unit(canonical_unit(unit.text))) return {};
+  throw InputError(
+      fmt::format("{} = {}: stands beside several lists, {} and {}; write the unit of a list in "
+                  "its name, \"hub_angle [deg]\", or as \"hub_angle_unit\"",
+                  arm::shown(unit.place), arm::shown(unit.text), arm::shown(beside[0]->name),
+                  arm::shown(beside[1]->name)));
+}
+
+void give_unit(ForeignColumn& column, const KeyedUnit& unit) {
+  const std::string text = canonical_unit(unit.text);
+  if (text.empty()) return;
+  if (!column.unit.empty() && column.unit != text) {
+    throw InputError(fmt::format("{} = {}: the unit of {} is {} already; must be the same",
+                                 arm::shown(unit.place), arm::shown(unit.text),
+                                 arm::shown(column.name), arm::shown(column.unit)));
+  }
+  column.unit = text;
+}
+
 /// Builds columns; a cell that a row does not have is empty.
 class JsonTableBuilder {
  public:
@@ -96,7 +130,7 @@ class JsonTableBuilder {
     }
     read_texts();
     take_unit_columns();
-    set_units(columns, units_, singles_);
+    set_units();
     add_json_times(out_.table, numbers_, units_, out_.left_out);
   }
 
@@ -250,7 +284,7 @@ class JsonTableBuilder {
   bool add_units(const Json& object, const Json& units, const std::string& path,
                  const std::string& key) {
     if (is_of_units(units)) {
-      add_units_of(units, path, "", joined(path, key));
+      add_units_of(units, joined(path, key));
       return true;
     }
     if (!is_list_of(units, [](const Json& unit) { return unit.is_string() || unit.is_null(); })) {
@@ -277,15 +311,11 @@ class JsonTableBuilder {
     return true;
   }
 
-  void add_units_of(const Json& units, const std::string& path, const std::string& within,
-                    const std::string& place) {
+  void add_units_of(const Json& units, const std::string& place) {
     for (const auto& [key, value] : units.items()) {
       const std::string own_place = joined(place, key);
-      if (value.is_string()) {
-        units_.push_back({path, joined(within, key), value.get<std::string>(), true, own_place});
-      } else if (value.is_object()) {
-        add_units_of(value, path, joined(within, key), own_place);
-      }
+      if (value.is_string()) units_.push_back(keyed_unit(own_place, value.get<std::string>()));
+      if (value.is_object()) add_units_of(value, own_place);
     }
   }
 
@@ -330,6 +360,23 @@ class JsonTableBuilder {
     }
   }
 
+  void set_units() {
+    auto& columns = out_.table.columns;
+    KeyedUnits keyed;
+    for (const auto& unit : units_) {
+      keyed.add(unit);
+      if (!unit.key.empty() || unit.text.empty()) continue;
+      for (ForeignColumn* column : columns_beside(unit, columns)) give_unit(*column, unit);
+    }
+    std::vector<std::string> names;
+    for (const auto& column : columns) names.push_back(column.name);
+    names.insert(names.end(), singles_.begin(), singles_.end());
+    keyed.place(names, "list");
+    for (auto& column : columns) {
+      if (const auto* unit = keyed.find(column.name)) give_unit(column, *unit);
+    }
+  }
+
   /// Columns that repeat a unit in each sample, "hub_angle.unit", are units and no columns.
   void take_unit_columns() {
     std::erase_if(out_.table.columns, [&](const ForeignColumn& column) {
@@ -348,7 +395,7 @@ class JsonTableBuilder {
   JsonTable& out_;
   std::vector<std::pair<std::string, Cells>> columns_;
   std::map<std::string, std::size_t> places_;
-  std::vector<JsonUnit> units_;
+  std::vector<KeyedUnit> units_;
   std::vector<std::string> singles_;  ///< names of single values
   std::vector<JsonNumber> numbers_;   ///< single ones, and texts
 };

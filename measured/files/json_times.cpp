@@ -14,7 +14,7 @@
 namespace flexarm::measured {
 
 void add_json_times(ForeignTable& table, std::span<const JsonNumber> numbers,
-                    std::span<const JsonUnit> units, std::vector<std::string>& left_out) {
+                    std::span<const KeyedUnit> units, std::vector<std::string>& left_out) {
   const bool is_of_responses = response_parts(table).size() > 1;
   if (table.columns.empty() || is_of_responses ||
       std::ranges::any_of(table.columns, is_time_column)) {
@@ -25,7 +25,7 @@ void add_json_times(ForeignTable& table, std::span<const JsonNumber> numbers,
   for (const auto& number : numbers) {
     // A date and its clock are no time in s.
     if (number.text.find_first_of(":\t") != std::string::npos) continue;
-    const auto unit = std::ranges::find(units, number.key, &JsonUnit::key);
+    const auto unit = std::ranges::find(units, number.key, &KeyedUnit::key);
     const std::string text =
         fmt::format("{}: {} {}", number.key, number.text, unit == units.end() ? "" : unit->text);
     const TextLine line{1, text};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "measured/files/foreign_table.hpp"
-#include "measured/files/json_units.hpp"
+#include "measured/files/keyed_units.hpp"
 
 #include <span>
 #include <string>
@@ -20,6 +20,6 @@ struct JsonNumber {
 /// without any, and takes the phrases on those from `left_out`. Where they tell several periods,
 /// there are no times, and a sentence says so.
 void add_json_times(ForeignTable& table, std::span<const JsonNumber> numbers,
-                    std::span<const JsonUnit> units, std::vector<std::string>& left_out);
+                    std::span<const KeyedUnit> units, std::vector<std::string>& left_out);
 
 }  // namespace flexarm::measured

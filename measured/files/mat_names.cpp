@@ -169,7 +169,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
     if (text != nullptr) {
       texts_[owner.empty() ? std::string(path) : owner + "." + mat_field(path)] = *text;
       if (split_cell(path)) texts_[std::string(path)] = *text;
-      if (!tells_other(path)) keyed_units_.take(path, *text);
+      if (!tells_other(path)) keyed_units_.add(keyed_unit(path, *text));
     } else if (list == nullptr) {
       numbers.push_back(variable.name);
       const auto* matrix = std::get_if<MatMatrix>(&variable.value);
@@ -186,7 +186,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
       }
     }
   }
-  keyed_units_.place(numbers);
+  keyed_units_.place(numbers, "signal");
   for (const auto& [owner, units] : unit_lists_) {
     const auto names = lists_.find(owner);
     const bool is_one_each = names != lists_.end() && names->second.size() == 1;
@@ -328,7 +328,9 @@ std::vector<MatSignalName> MatNames::of(const std::string& path,
     std::string listed =
         canonical_unit(units != nullptr ? (*units)[i] : text_of_cell(path, unit_lists_, 2));
     const bool is_keyed = listed.empty();
-    if (is_keyed) listed = keyed_units_.of(path);
+    if (const auto* unit = keyed_units_.find(path); is_keyed && unit != nullptr) {
+      listed = unit->text;
+    }
     if (!listed.empty() && !of_name.empty() && listed != of_name) {
       throw arm::InputError(fmt::format(
           "{}: in {} by its name, in {} by the {}; must be the same", arm::shown(name.name),

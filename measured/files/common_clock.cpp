@@ -69,9 +69,20 @@ class CommonClock {
             "time of day is known; write both with time stamps, or both in seconds of one clock",
             files_[base_].file, file.file, file.times_s.front()));
       }
-      file.start = ClockStart{0, true};
+      file.start = ClockStart{0, true, true, files_[base_].start->has_zone};
       notes_.push_back(fmt::format("the times of {} are taken as seconds since 1970", file.file));
     }
+  }
+
+  /// Local time of one file beside a known zone of another may be hours off.
+  void require_same_zone(const TimedSignals& file) const {
+    if (file.start->has_zone == files_[base_].start->has_zone) return;
+    const auto& zoned = file.start->has_zone ? file : files_[base_];
+    const auto& local = file.start->has_zone ? files_[base_] : file;
+    throw InputError(fmt::format(
+        "--join: the times of {} have a time zone, those of {} have none; must be told in both, "
+        "12:00:00Z or 12:00:00+01:00, or in neither",
+        zoned.file, local.file));
   }
 
   void find_offsets() {
@@ -90,6 +101,7 @@ class CommonClock {
     }
     const ClockStart& base = *files_[base_].start;
     for (const auto& file : files_) {
+      require_same_zone(file);
       double offset_s = seconds_between(base, *file.start);
       const bool is_clock =
           dated == 0 && is_within_turn(base, turn_s) && is_within_turn(*file.start, turn_s);

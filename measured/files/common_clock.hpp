@@ -15,7 +15,8 @@ namespace flexarm::measured {
 /// Times without stamps stay as they are, but for those of which every head tells the start, unless
 /// their first numbers differ as these starts do.
 ///
-/// Throws InputError for stamps in one file and other seconds in another.
+/// Throws InputError for stamps in one file and other seconds in another, and for stamps of which
+/// those of one file alone have a time zone.
 std::vector<std::string> put_on_one_clock(std::vector<TimedSignals>& files);
 
 }  // namespace flexarm::measured

@@ -170,7 +170,7 @@ std::int64_t billionths(string_view digits) {
 }
 
 /// Reads the text behind the clock: AM or PM, then a time zone.
-bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns) {
+bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns, bool& has_zone) {
   rest.pass_blanks();
   for (int words = 0; words < 2 && is_of_word(rest.peek()); ++words) {
     std::string word = plain_letters(rest.letters());
@@ -186,6 +186,7 @@ bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns) {
     } else if (word.size() > kLongestZone || word.size() == 2) {
       return false;
     }
+    has_zone = has_zone || word == "z" || word == "utc" || word == "gmt";
     rest.pass_blanks();
   }
   if (rest.peek() == '+' || rest.peek() == '-') {
@@ -200,6 +201,7 @@ bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns) {
       hour = hour.substr(0, 2);
     }
     if (hour.empty() || minute.empty() || hour.size() > 2 || minute.size() > 2) return false;
+    has_zone = true;
     offset_ns = sign * (whole(hour) * kHour_ns + whole(minute) * kMinute_ns);
   }
   return rest.at_end();
@@ -232,7 +234,7 @@ bool read_clock(string_view text, TimeStamp& stamp) {
   constexpr int kSixty = 60;
   if (seconds > kSixty || (stamp.has_hours && minutes >= kSixty)) return false;
   std::int64_t offset_ns = 0;
-  if (!read_suffixes(rest, hours, offset_ns)) return false;
+  if (!read_suffixes(rest, hours, offset_ns, stamp.has_zone)) return false;
   stamp.clock_ns = hours * kHour_ns + minutes * kMinute_ns + seconds * kSecond_ns +
                    billionths(fraction) - offset_ns;
   return true;
@@ -363,7 +365,8 @@ StampedTimes stamped_times(std::span<const std::optional<TimeStamp>> stamps,
     times.seconds.push_back(static_cast<double>(*time_ns + turns_ns - *start_ns) /
                             static_cast<double>(kSecond_ns));
   }
-  times.start = {start_ns.value_or(0), has_dates, has_hours};
+  const bool has_zone = first != stamps.end() && (*first)->has_zone;
+  times.start = {start_ns.value_or(0), has_dates, has_hours, has_zone};
   return times;
 }
 

@@ -20,6 +20,7 @@ struct TimeStamp {
   /// time zone where one is told; rounded to 1 ns.
   std::optional<std::int64_t> clock_ns;
   bool has_hours = true;  ///< false for minutes and seconds alone, 00:02.5
+  bool has_zone = false;  ///< Z, UTC, GMT or an offset
 
   bool has_date() const { return day_first || month_first; }
 };
@@ -33,9 +34,10 @@ std::optional<TimeStamp> parse_time_stamp(std::string_view cell);
 
 /// Moment of a clock.
 struct ClockStart {
-  std::int64_t ns = 0;    ///< since 1970-01-01, or without a date as `TimeStamp::clock_ns`
+  std::int64_t ns = 0;  ///< since 1970-01-01, or without a date as `TimeStamp::clock_ns`
   bool has_date = false;
   bool has_hours = true;  ///< as of `TimeStamp`
+  bool has_zone = false;  ///< likewise
 };
 
 /// Times of stamps, and the moment that they count from.

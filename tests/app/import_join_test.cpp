@@ -56,8 +56,11 @@ constexpr int kNoon_ms = 12 * 3600000;
 std::string at_noon(int ms) {
   return clock_of(kNoon_ms + ms);
 }
+std::string without_zone(int ms) {
+  return "2024-03-01T" + at_noon(ms);
+}
 std::string iso(int ms) {
-  return "2024-03-01T" + at_noon(ms) + "Z";
+  return without_zone(ms) + "Z";
 }
 std::string before_midnight(int ms) {
   return clock_of(24 * 3600000 - 50 + ms);
@@ -88,7 +91,7 @@ TEST_F(ImportJoin, TimeStampsAreOfOneClock) {
   write_pair([](int ms) { return "2024-03-01," + at_noon(ms); },
              [](int ms) { return "01.03.2024," + at_noon(ms); }, "Date,Time");
   EXPECT_EQ(matching_samples({"a.csv", "b.csv"}), kCommon);
-  write_pair(iso, at_noon);
+  write_pair(iso, [](int ms) { return at_noon(ms) + "Z"; });
   EXPECT_EQ(matching_samples({"a.csv", "b.csv"}), kCommon);
   EXPECT_THAT(output_, HasSubstr("not all files tell a date"));
 }
@@ -114,6 +117,10 @@ TEST_F(ImportJoin, StampsWithoutACommonTimeAreRefused) {
   expect_refused(import({"a.csv", "b.csv", "--join"}),
                  "--join: a.csv has time stamps and b.csv seconds from 0.1 s, of which no time "
                  "of day is known; write both with time stamps, or both in seconds of one clock");
+  write_pair(without_zone, iso);
+  expect_refused(import({"a.csv", "b.csv", "--join"}),
+                 "--join: the times of b.csv have a time zone, those of a.csv have none; must be "
+                 "told in both, 12:00:00Z or 12:00:00+01:00, or in neither");
 }
 
 TEST_F(ImportJoin, ARunThatBeginsAfterItsTorqueIsFree) {
@@ -209,7 +216,7 @@ TEST_F(ImportJoin, HeadsOfLabviewTellTheClock) {
   EXPECT_EQ(matching_samples({"a.lvm", "b.lvm"}), kCommon);
   write("b.lvm", labview("hub_angle", "12:00:00.000000", 0.1, 100));
   EXPECT_EQ(matching_samples({"a.lvm", "b.lvm"}), kCommon);
-  write_pair(iso, iso);
+  write_pair(without_zone, without_zone);
   EXPECT_EQ(matching_samples({"a.lvm", "b.csv"}), kCommon);
   write_pair(since_start, since_start);
   EXPECT_EQ(matching_samples({"a.lvm", "b.csv"}), kCommon);

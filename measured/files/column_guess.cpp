@@ -112,6 +112,24 @@ std::vector<ColumnCandidate> candidates_for(const ColumnLabel& label, std::size_
   return found;
 }
 
+/// The number of a second column or a later one, "2" of "angle 2"; empty for any other name.
+std::string later_number(const ColumnLabel& label) {
+  const std::string base = quantity_name(label.name);
+  const auto last = base.find_last_of("0123456789");
+  if (last == std::string::npos || base.starts_with("strain@")) return "";
+  const auto first = base.find_last_not_of("0123456789", last) + 1;  // 0 where all are digits
+  const std::string number = base.substr(first, last + 1 - first);
+  return arm::parse_number<int>(number).value_or(2) < 2 ? "" : number;
+}
+
+/// The option that states a column in a unit that is none of its quantity.
+std::string stated_in(string_view quantity, const std::string& name, string_view unit) {
+  const string_view likely = quantity == "hub_velocity" && unit == "1/s"     ? "rad/s' or ':rev/s"
+                             : quantity == "tip_acceleration" && unit == "G" ? "g"
+                                                                             : "UNIT:SCALE";
+  return fmt::format("--column '{}={}:{}'", quantity, name, likely);
+}
+
 /// Returns the question about a column whose name changes a quantity.
 ColumnQuestion question_of_change(const ColumnLabel& label, const NameChange& change,
                                   string_view quantity) {
@@ -183,9 +201,8 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
     if (is_unit_of(quantity, label.unit)) continue;
     return ColumnQuestion{
         label.name,
-        fmt::format("{} may be {}, but {} is no unit of it; state it with --column "
-                    "'{}={}:UNIT:SCALE'",
-                    column, quantity, arm::shown(label.unit), quantity, name),
+        fmt::format("{} may be {}, but {} is no unit of it; state it with {}", column, quantity,
+                    arm::shown(label.unit), stated_in(quantity, name, label.unit)),
         quantity == "torque"};
   }
   return std::nullopt;
@@ -291,7 +308,10 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
     if (std::ranges::count(found, true, &ColumnCandidate::is_standard) > 0) {
       std::erase_if(found, [](const ColumnCandidate& entry) { return !entry.is_standard; });
     }
-    if (!std::ranges::all_of(found, &ColumnCandidate::is_by_unit)) {
+    const auto is_sure = [&](const ColumnCandidate& entry) {
+      return !entry.is_by_unit && later_number(columns[entry.column]).empty();
+    };
+    if (std::ranges::any_of(found, is_sure)) {
       std::erase_if(found, &ColumnCandidate::is_by_unit);
     }
     if (found.size() > 1) {
@@ -314,6 +334,16 @@ ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMapp
           "{0} is taken as torque by its unit alone; state the torque on the hub with --column "
           "'torque={1}', if this is it, or another column, or --torque EXPRESSION",
           arm::shown(label.name), arm::shown(split_column_name(label.name).base)));
+    }
+    const bool is_by_word = !found.front().is_standard && !found.front().is_unnamed;
+    const std::string number = is_by_word && quantity != "time" ? later_number(label) : "";
+    if (!number.empty()) {
+      guess.warnings.push_back(
+          fmt::format("{0} is taken as {1}, but its name has the number {2}; state {1} with "
+                      "--column '{1}={3}', "
+                      "if this is it, or another column",
+                      arm::shown(label.name), quantity, number,
+                      arm::shown(split_column_name(label.name).base)));
     }
     guess.mappings[quantity] = {label.name, label.unit.empty() ? si_unit : label.unit,
                                 scale_of_unit(quantity, label.unit)};

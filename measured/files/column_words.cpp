@@ -99,11 +99,13 @@ constexpr Word kVoltageWords[] = {"voltage", "motorvoltage", "outputvoltage", "a
                                   "tension", "tensionmoteur"};
 
 /// Words of torques that are not the motor's, or not as it acts; whole ones, and their beginnings.
-constexpr Word kOtherTorques[] = {"max", "min", "ref", "std", "abs", "err", "lim", "neg", "rate"};
+constexpr Word kOtherTorques[] = {"max", "min", "ref", "std", "abs", "err", "lim", "neg", "rate",
+                                  // a logarithm, indices of friction and load, a side of the gear
+                                  "log", "ln", "f", "fr", "l", "ext", "before", "vor", "avant"};
 constexpr Word kOtherTorqueStems[] = {"maxim", "minim", "refer", "stdev", "absol", "error", "limit",
                                       "negat", "deriv", "inverted", "inverse", "offset", "bias",
                                       "noise", "ripple", "bend", "root", "clamp", "fric", "disturb",
-                                      "load", "gravi", "energ",
+                                      "upstream", "load", "gravi", "energ",
                                       // German
                                       "bieg", "wurzel", "einspann", "grenz", "fehler", "rausch",
                                       "reib", "stoer", "last", "invertiert",
@@ -169,7 +171,8 @@ std::string other_torque_word(string_view name) {
     }
     const string_view word = name.substr(begin, end - begin);
     const std::string letters = plain_letters(word);
-    const bool is_other = std::ranges::count(kOtherTorques, string_view(letters)) > 0 ||
+    const bool is_structure = letters == "log" && name.substr(end).starts_with('.');
+    const bool is_other = (!is_structure && std::ranges::count(kOtherTorques, letters) > 0) ||
                           std::ranges::any_of(kOtherTorqueStems,
                                               [&](Word stem) { return letters.starts_with(stem); });
     if (is_other) return std::string(word);

@@ -37,8 +37,8 @@ TEST_F(ImportNames, ASignInANameIsNeverIgnored) {
 }
 
 TEST_F(ImportNames, AFunctionInANameIsNeverIgnored) {
-  for (const std::string name :
-       {"|tau|", "abs(tau)", "d(tau)/dt", "1-tau", "1/tau", "tau+90", "\xce\x94tau", "-tau"}) {
+  for (const std::string name : {"|tau|", "abs(tau)", "log(tau)", "d(tau)/dt", "1-tau", "1/tau",
+                                 "tau+90", "\xce\x94tau", "-tau"}) {
     write_log("t [s]," + name + " [N m],theta [deg]");
     EXPECT_THAT(import({"log.csv"}).errors, AllOf(HasSubstr("torque: column not recognised"),
                                                   HasSubstr("may be torque, but its name has")))
@@ -102,7 +102,7 @@ TEST_F(ImportNames, ATorqueThatIsNotTheMotorsIsAskedAbout) {
        {"bending moment", "Biegemoment", "Lastmoment", "torque limit", "torque rate",
         "torque noise", "max. Moment", "torque min", "friction torque", "Reibmoment",
         "St\xc3\xb6rmoment", "root moment", "torque (negated)", "torque_ref2", "gravity torque",
-        "MaxTorque"}) {
+        "MaxTorque", "tau_f", "torque before gear", "log torque"}) {
     write_log("t [s]," + name + " [N m],theta [deg]");
     EXPECT_THAT(import({"log.csv"}).errors,
                 AllOf(HasSubstr("torque: column not recognised"),
@@ -140,6 +140,16 @@ TEST_F(ImportNames, AStatedUnitThatTheFileContradictsIsWarnedOf) {
     record(arguments);
     EXPECT_THAT(output_, Not(HasSubstr("the file tells"))) << options[1];
   }
+}
+
+TEST_F(ImportNames, AUnitThatIsAmbiguousIsAskedAbout) {
+  write_log("t [s],tau [N m],omega [s^-1]");
+  EXPECT_THAT(import({"log.csv"}).errors,
+              HasSubstr("omega [s^-1] may be hub_velocity, but 1/s is no unit of it; state it with "
+                        "--column 'hub_velocity=omega:rad/s' or ':rev/s'"));
+  write_log("t [s],tau [N m],acc [G]");
+  EXPECT_THAT(import({"log.csv"}).errors,
+              HasSubstr("G is no unit of it; state it with --column 'tip_acceleration=acc:g'"));
 }
 
 TEST_F(ImportNames, AScaleThatUndoesTheConversionOfItsUnitIsRefused) {

@@ -277,6 +277,21 @@ TEST(ColumnGuess, WhatSeveralColumnsMayBeIsLeftOutAndNoted) {
                           "hub_angle=NAME"));
 }
 
+TEST(ColumnGuess, ALaterNumberInANameIsWarnedOf) {
+  using Labels = std::vector<ColumnLabel>;
+  const auto second = guess_columns(Labels{{"t_s", "s"}, {"angle 2", "deg"}}, {});
+  EXPECT_EQ(second.mappings.at("hub_angle").name, "angle 2");
+  EXPECT_THAT(second.warnings,
+              ElementsAre("angle 2 is taken as hub_angle, but its name has the number 2; state "
+                          "hub_angle with --column 'hub_angle=angle 2', if this is it, or another "
+                          "column"));
+  EXPECT_TRUE(guess_columns(Labels{{"t_s", "s"}, {"angle1", "deg"}}, {}).warnings.empty());
+  for (const char* other : {"angle", "position"}) {
+    const auto two = guess_columns(Labels{{other, "deg"}, {"angle 2", "deg"}}, {});
+    EXPECT_THAT(two.ambiguous.at("hub_angle"), ElementsAre(other, "angle 2"));
+  }
+}
+
 TEST(ColumnGuess, TheStandardNameGoesFirstAndTheUnitMustFit) {
   const ColumnGuess guess = guess_columns(
       std::vector<ColumnLabel>{{"hub_angle", "rad"}, {"theta", "rad"}, {"torque", "V"}}, {});

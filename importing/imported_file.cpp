@@ -11,6 +11,7 @@
 #include "measured/files/raw_doubles.hpp"
 #include "measured/files/time_grid.hpp"
 #include "measured/files/universal_grid.hpp"
+#include "measured/files/wrapped_angle.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -256,6 +257,24 @@ void warn_of_unrecorded(const arm::Controller& controller, ImportedFile& importe
   }
 }
 
+/// Unwraps the hub angle, and angles by their unit among the columns that are used.
+void unwrap_angles(ForeignTable& table, const measured::ColumnMappings& mappings,
+                   const std::vector<std::size_t>& used, std::vector<std::string>& notes) {
+  const auto add = [&](std::string note) {
+    if (!note.empty() && std::ranges::count(notes, note) == 0) notes.push_back(std::move(note));
+  };
+  const auto angle = mappings.find("hub_angle");
+  if (angle != mappings.end() && angle->second.expression.empty()) {
+    const auto& mapping = angle->second;
+    auto& column = table.columns[measured::find_column(table, mapping.name)];
+    add(measured::unwrap(column, mapping.unit, mapping.scale));
+  }
+  for (const std::size_t place : used) {
+    auto& column = table.columns[place];
+    add(measured::unwrap(column, column.unit));
+  }
+}
+
 bool is_unused(const std::string& column, const ImportedFile& imported) {
   return std::ranges::count(imported.not_used, column) > 0;
 }
@@ -317,6 +336,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
+  unwrap_angles(file.table, guess.mappings, used, imported.assumptions);
   std::ranges::move(unit_contradictions(guess.mappings, labels),
                     std::back_inserter(imported.warnings));
   imported.warnings.insert(imported.warnings.end(), guess.warnings.begin(), guess.warnings.end());

@@ -7,6 +7,7 @@
 #include "measured/files/common_clock.hpp"
 #include "measured/files/missing_signs.hpp"
 #include "measured/files/time_record.hpp"
+#include "measured/files/wrapped_angle.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -136,6 +137,8 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
                                           arm::shown(columns[i].name)));
         continue;
       }
+      const std::string note = measured::unwrap(columns[i], columns[i].unit);
+      if (!note.empty()) assumptions.push_back(fmt::format("{}: {}", name, note));
       signals.columns.push_back(std::move(columns[i]));
     }
     for (const auto& sentence : read.contents.table.assumptions) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -302,6 +303,33 @@ TEST_F(ImportKinds, MillisecondsOfTheirOwnColumnCompleteWholeSeconds) {
   }
   write("split.csv", text);
   EXPECT_THAT(import({"split.csv"}).errors, HasSubstr("--period"));
+}
+
+TEST_F(ImportKinds, AnAngleWithinOneTurnIsUnwrapped) {
+  using Turn = std::tuple<const char*, double, double>;  // unit, a turn, the least number
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  for (const auto& [unit, turn, least] :
+       {Turn{"deg", 360.0, 0.0}, Turn{"deg", 360.0, -180.0}, Turn{"rad", kTurn_rad, 0.0},
+        Turn{"rad", kTurn_rad, -std::numbers::pi}, Turn{"rev", 1.0, 0.0}}) {
+    const auto angle_turns = [](int k) { return 1.3 * std::sin(0.02 * k); };
+    std::string log = fmt::format("t [s],tau [N m],theta [{}]\n", unit);
+    for (int k = 0; k < 400; ++k) {
+      const double turns = angle_turns(k) - least / turn;
+      log += fmt::format("{:.3f},1,{}\n", 0.005 * k, least + turn * (turns - std::floor(turns)));
+    }
+    write("log.csv", log);
+    const auto made = record({"log.csv"});
+    EXPECT_THAT(output_, HasSubstr("from a sample to the next; it is unwrapped")) << unit << least;
+    for (int k = 0; k < 400; ++k) {
+      EXPECT_NEAR(made.channels.at(0).values.at(static_cast<std::size_t>(k)),
+                  kTurn_rad * angle_turns(k), 1e-9)
+          << unit << least << " " << k;
+    }
+  }
+  // One number of an angle at rest is no turn.
+  write("log.csv", "t [s],tau [N m],theta [deg]\n0,1,5\n1,1,5\n2,1,355\n3,1,5\n4,1,5\n");
+  EXPECT_NEAR(record({"log.csv"}).channels.at(0).values.at(2), 355.0 / 360.0 * kTurn_rad, 1e-9);
+  EXPECT_THAT(output_, HasSubstr("if it is recorded within one turn, unwrap it in the file"));
 }
 
 TEST_F(ImportKinds, TimesThatDoNotRunAreNamed) {

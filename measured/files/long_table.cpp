@@ -41,6 +41,7 @@ struct LongForm {
   std::size_t names = 0;
   std::size_t values = 0;
   std::optional<std::size_t> units;
+  std::vector<std::string> signals;  ///< the name in each row
 };
 
 /// The only column with one of the words as its name, of texts or of numbers.
@@ -58,17 +59,35 @@ std::optional<std::size_t> only_place(const ForeignTable& table, std::span<const
   return found;
 }
 
+/// "channel 1" for each 1 in a column of numbers of channels; empty for other numbers.
+std::vector<std::string> numbered_signals(const ForeignColumn& column) {
+  constexpr double kMost = 1e6;
+  const std::string base = split_column_name(column.name).base;
+  std::vector<std::string> signals;
+  for (const double number : column.values) {
+    if (!(number >= 0.0 && number < kMost && number == std::floor(number))) return {};
+    signals.push_back(fmt::format("{} {:.0f}", base.substr(base.rfind('.') + 1), number));
+  }
+  return signals;
+}
+
 std::optional<LongForm> long_form_of(const ForeignTable& table) {
-  const auto names = only_place(table, kSignalWords, true);
+  auto names = only_place(table, kSignalWords, true);
+  const bool is_numbered = !names;
+  if (is_numbered) names = only_place(table, kSignalWords, false);
   const auto values = only_place(table, kValueWords, false);
   const auto time = std::ranges::find_if(table.columns, is_time_column);
   if (!names || !values || time == table.columns.end()) return std::nullopt;
-  LongForm form{static_cast<std::size_t>(time - table.columns.begin()), *names, *values,
-                only_place(table, kUnitWords, true)};
-  const auto& texts = table.columns[*names].texts;
-  const std::size_t rows = texts.size();
-  const std::set<string_view> signals(texts.begin(), texts.end());
-  const bool is_repeated = 2 * signals.size() <= rows && signals.size() <= kMostRecordColumns;
+  LongForm form{
+      static_cast<std::size_t>(time - table.columns.begin()), *names, *values,
+      only_place(table, kUnitWords, true),
+      is_numbered ? numbered_signals(table.columns[*names]) : table.columns[*names].texts};
+  const std::size_t rows = form.signals.size();
+  const std::set<string_view> signals(form.signals.begin(), form.signals.end());
+  // Numbers are channels where most times have several.
+  const std::set<double> times(time->values.begin(), time->values.end());
+  const bool is_repeated = 2 * signals.size() <= rows && signals.size() <= kMostRecordColumns &&
+                           (!is_numbered || 4 * times.size() <= 3 * rows);
   if (form.times == form.values || !is_repeated || time->values.size() != rows ||
       table.columns[*values].values.size() != rows) {
     return std::nullopt;
@@ -88,7 +107,7 @@ ForeignTable without_long_form(ForeignTable table) {
   const auto form = long_form_of(table);
   if (!form) return table;
   const auto& times = table.columns[form->times];
-  const auto& texts = table.columns[form->names].texts;
+  const auto& texts = form->signals;
   const auto& values = table.columns[form->values];
   ForeignTable made;
   made.assumptions = std::move(table.assumptions);

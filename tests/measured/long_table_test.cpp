@@ -74,6 +74,19 @@ TEST(LongTable, ASignalWithoutAValueHasAnEmptyCell) {
   EXPECT_EQ(of_values.columns[1].unit, "deg");
 }
 
+TEST(LongTable, NumbersOfChannelsAreNames) {
+  for (const std::string text :
+       {"t,channel,value\n0,1,1\n0,12,4\n1,1,2\n1,12,5\n2,1,3\n2,12,6\n",
+        R"({"a": [{"t": 0, "channel": 1, "value": 1}, {"t": 0, "channel": 12, "value": 4},
+                  {"t": 1, "channel": 1, "value": 2}, {"t": 1, "channel": 12, "value": 5}]})"}) {
+    const auto table = table_of(text);
+    ASSERT_EQ(table.columns.size(), 3U) << text;
+    EXPECT_EQ(table.columns[1].name, "channel 1");
+    EXPECT_EQ(table.columns[2].name, "channel 12");
+    EXPECT_EQ(table.columns[2].values[1], 5.0);
+  }
+}
+
 TEST(LongTable, WhatContradictsItselfIsRefused) {
   const auto refusal = [](const std::string& text) {
     try {

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -85,7 +86,9 @@ std::optional<LongForm> long_form_of(const ForeignTable& table) {
   const std::size_t rows = form.signals.size();
   const std::set<string_view> signals(form.signals.begin(), form.signals.end());
   // Numbers are channels where most times have several.
-  const std::set<double> times(time->values.begin(), time->values.end());
+  std::set<double> times;
+  std::ranges::copy_if(time->values, std::inserter(times, times.end()),
+                       [](double at) { return !std::isnan(at); });
   const bool is_repeated = 2 * signals.size() <= rows && signals.size() <= kMostRecordColumns &&
                            (!is_numbered || 4 * times.size() <= 3 * rows);
   if (form.times == form.values || !is_repeated || time->values.size() != rows ||

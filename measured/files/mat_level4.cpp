@@ -1,6 +1,5 @@
 #include "arm/input_error.hpp"
 #include "measured/files/mat_levels.hpp"
-#include "measured/files/text_encoding.hpp"
 
 #include <fmt/format.h>
 
@@ -108,12 +107,7 @@ void add_level4(const std::string& name, const Level4Header& header, MatNumbers 
     add_numbers(name, std::move(numbers), contents);
     return;
   }
-  auto text = text_of_units(numbers.real);
-  if (!text || (!numbers.real.empty() && header.rows != 1)) {
-    contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
-    return;
-  }
-  contents.variables.push_back({name, std::move(*text)});
+  add_text(name, numbers.real, header.rows, contents);
 }
 
 }  // namespace

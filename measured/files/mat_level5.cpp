@@ -32,13 +32,26 @@ std::size_t elements(const matvar_t& variable) {
   return product;
 }
 
+/// The UTF-16 or Latin-1 of a text, column by column; empty of one that is kept in another way.
+std::vector<double> text_units(const matvar_t& variable) {
+  const std::size_t size = elements(variable);
+  const auto unit_bytes = static_cast<std::size_t>(variable.data_size);
+  const bool is_known = variable.data != nullptr && (unit_bytes == 1 || unit_bytes == 2);
+  if (!is_known || variable.nbytes != size * unit_bytes) return {};
+  std::vector<double> units;
+  for (std::size_t i = 0; i < size; ++i) {
+    units.push_back(unit_bytes == 1 ? static_cast<const std::uint8_t*>(variable.data)[i]
+                                    : static_cast<const std::uint16_t*>(variable.data)[i]);
+  }
+  return units;
+}
+
 /// A text of one row: UTF-8, whose letters have a byte or more, UTF-16 or Latin-1. Some programs
 /// call Latin-1 UTF-8.
 bool read_text(const matvar_t& variable, std::string& text) {
   if (variable.class_type != MAT_C_CHAR || variable.rank != 2) return false;
-  const std::size_t size = elements(variable);
   text.clear();
-  if (size == 0) return true;
+  if (elements(variable) == 0) return true;
   if (variable.dims[0] != 1 || variable.data == nullptr) return false;
   const auto* bytes = static_cast<const char*>(variable.data);
   if (variable.data_type == MAT_T_UTF8) text.assign(bytes, variable.nbytes);
@@ -46,16 +59,10 @@ bool read_text(const matvar_t& variable, std::string& text) {
     return static_cast<unsigned char>(c) >= ' ' && c != '\x7f';
   };
   if (!text.empty() && arm::is_utf8(text)) return std::ranges::all_of(text, is_printed);
-  const auto unit_bytes = static_cast<std::size_t>(variable.data_size);
-  if (unit_bytes > 2 || variable.nbytes != size * unit_bytes) return false;
-  std::vector<double> units;
-  for (std::size_t i = 0; i < size; ++i) {
-    units.push_back(unit_bytes == 1 ? static_cast<const std::uint8_t*>(variable.data)[i]
-                                    : static_cast<const std::uint16_t*>(variable.data)[i]);
-  }
+  const auto units = text_units(variable);
   auto read = text_of_units(units);
   if (read) text = std::move(*read);
-  return read.has_value();
+  return read.has_value() && !units.empty();
 }
 
 bool read_texts(const matvar_t& variable, MatStrings& texts) {
@@ -170,6 +177,9 @@ void append(matvar_t& variable, const std::string& name, MatContents& contents) 
     append_cells(variable, name, contents);
   } else if (auto numbers = read_numbers(variable)) {
     add_numbers(name, std::move(*numbers), contents);
+  } else if (const auto units = text_units(variable);
+             variable.class_type == MAT_C_CHAR && variable.rank == 2 && !units.empty()) {
+    add_text(name, units, variable.dims[0], contents);
   } else if (variable.class_type == MAT_C_CHAR) {
     contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
   } else {

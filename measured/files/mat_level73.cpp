@@ -2,7 +2,6 @@
 #include "measured/files/mat_levels.hpp"
 #include "measured/files/mat_packing.hpp"
 #include "measured/files/own_process.hpp"
-#include "measured/files/text_encoding.hpp"
 
 #include <fmt/format.h>
 
@@ -263,19 +262,11 @@ class Hdf5Reader {
     MatNumbers numbers{std::move(dimensions), {}, {}};
     numbers.real = values_of<double>(data_set, H5T_NATIVE_DOUBLE, count);
     if (kind == "char") {
-      add_text(name, numbers);
+      const bool is_matrix = numbers.dimensions.size() == 2;
+      add_text(name, numbers.real, is_matrix ? numbers.dimensions[0] : kMostTexts + 1, contents_);
     } else {
       add_numbers(name, std::move(numbers), contents_);
     }
-  }
-
-  void add_text(const std::string& name, const MatNumbers& codes) {
-    auto text = text_of_units(codes.real);
-    if (!text || (!codes.real.empty() && codes.dimensions[0] != 1)) {
-      leave_out(name, kUnreadText);
-      return;
-    }
-    contents_.variables.push_back({name, std::move(*text)});
   }
 
   /// A compound of the real and the imaginary part.

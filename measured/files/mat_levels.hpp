@@ -10,7 +10,11 @@
 namespace flexarm::measured {
 
 /// Stands behind the name of a text that is not read.
-inline constexpr std::string_view kUnreadText = "a text of several rows or with control characters";
+inline constexpr std::string_view kUnreadText =
+    "a text with control characters, of many rows or more dimensions";
+
+/// Rows of a text that are read; it is left out with more.
+inline constexpr std::size_t kMostTexts = 4096;
 
 /// Numbers of any dimensions, two or more, the first index running fastest.
 struct MatNumbers {
@@ -23,6 +27,11 @@ struct MatNumbers {
 /// than one is left, each line along the longest of them is a vector of its own, "x(2,3,:)", at
 /// most 64 of them.
 void add_numbers(const std::string& name, MatNumbers numbers, MatContents& contents);
+
+/// Adds a text of UTF-16 code units, or a list of texts of several rows; the first index of `units`
+/// is the row. Rows are as long as each other, with blanks behind.
+void add_text(const std::string& name, const std::vector<double>& units, std::size_t rows,
+              MatContents& contents);
 
 /// Adds an object of a class that MATLAB alone reads, with the way to save its numbers.
 void add_object(const std::string& name, const std::string& class_name, MatContents& contents);

@@ -47,6 +47,14 @@ bool names_units(string_view path) {
          field.ends_with("unites");
 }
 
+/// The number of signals in a matrix, 1 of any other variable.
+std::size_t signals_in(const MatVariable& variable) {
+  const auto* real = std::get_if<MatMatrix>(&variable.value);
+  if (real != nullptr) return std::min(real->rows, real->columns);
+  const auto* complex = std::get_if<MatComplexMatrix>(&variable.value);
+  return complex == nullptr ? 1 : std::min(complex->rows, complex->columns);
+}
+
 /// Whether a text is by its field a label or the unit of frequencies.
 bool tells_other(string_view path) {
   const std::string field = mat_field(path);
@@ -147,6 +155,7 @@ bool is_description(string_view path) {
 MatNames::MatNames(const std::vector<MatVariable>& variables,
                    const std::vector<std::string>& left_out) {
   std::vector<std::string> numbers;
+  std::map<std::string, std::set<std::size_t>, std::less<>> sizes;  // of sets of signals, by owner
   for (const string_view phrase : left_out) {
     const auto end = phrase.find(": ");
     const string_view path = phrase.substr(0, end);
@@ -175,6 +184,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
       const auto* matrix = std::get_if<MatMatrix>(&variable.value);
       if (matrix != nullptr && matrix->values.size() < 2) continue;
       if (is_description(path)) continue;
+      sizes[owner].insert(signals_in(variable));
       if (unit_of_frequency_name(path)) frequencies_in_.insert(owner);
       if (const auto cell = split_cell(path)) ++cells_in_[std::string(cell->first)];
       if (is_time_field(path)) {
@@ -187,6 +197,7 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
     }
   }
   keyed_units_.place(numbers, "signal");
+  for (const auto& [array, count] : cells_in_) sizes[std::string(owner_of(array))].insert(count);
   for (const auto& [owner, units] : unit_lists_) {
     const auto names = lists_.find(owner);
     const bool is_one_each = names != lists_.end() && names->second.size() == 1;
@@ -196,6 +207,20 @@ MatNames::MatNames(const std::vector<MatVariable>& variables,
         fmt::format("a list of {} units beside one of {} names, {}; must be one for each",
                     units[0]->size(), names->second[0]->size(),
                     arm::shown(fmt::format("{}", fmt::join(*names->second[0], ", ")))));
+  }
+  for (const auto& variable : variables) {
+    const auto* list = std::get_if<MatStrings>(&variable.value);
+    const auto beside = sizes.find(owner_of(variable.name));
+    if (list == nullptr || list->size() < 2 || beside == sizes.end()) continue;
+    const bool is_of_units = std::ranges::count(kUnitFields, mat_field(variable.name)) > 0 &&
+                             std::ranges::any_of(*list, [](const std::string& unit) {
+                               return is_canonical_unit(canonical_unit(unit));
+                             });
+    if (!is_of_units || beside->second.contains(list->size())) continue;
+    throw arm::InputError(fmt::format(
+        "{}: {} units; must be as many as a matrix beside it has signals, or a text for each "
+        "signal, tau_unit",
+        arm::shown(variable.name), list->size()));
   }
 }
 

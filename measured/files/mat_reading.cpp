@@ -1,6 +1,7 @@
 #include "arm/input_error.hpp"
 #include "measured/files/mat_file.hpp"
 #include "measured/files/mat_levels.hpp"
+#include "measured/files/text_encoding.hpp"
 #include "measured/files/text_file.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +90,24 @@ void add_numbers(const std::string& name, MatNumbers numbers, MatContents& conte
     add_matrix(line_of_array, length, 1, values_from(first, numbers.real),
                values_from(first, numbers.imaginary), contents);
   }
+}
+
+void add_text(const std::string& name, const std::vector<double>& units, std::size_t rows,
+              MatContents& contents) {
+  MatStrings texts;
+  for (std::size_t row = 0; row < std::max<std::size_t>(rows, 1); ++row) {
+    std::vector<double> letters;
+    for (std::size_t at = row; at < units.size(); at += rows) letters.push_back(units[at]);
+    auto text = text_of_units(letters);
+    if (!text || rows > kMostTexts) {
+      contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
+      return;
+    }
+    texts.push_back(std::move(*text));
+  }
+  MatVariable variable{name, texts.front()};
+  if (texts.size() > 1) variable.value = std::move(texts);
+  contents.variables.push_back(std::move(variable));
 }
 
 void add_object(const std::string& name, const std::string& class_name, MatContents& contents) {

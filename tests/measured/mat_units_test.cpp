@@ -67,8 +67,7 @@ TEST_F(MatUnits, AUnitThatIsNotReadIsRefused) {
                                                     two_rows.data(), letters.data(), 0)}}})}});
     FAIL() << "accepted";
   } catch (const arm::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("a.Unit: a text of several rows"));
-    EXPECT_THAT(error.what(), HasSubstr("must be a text of one row"));
+    EXPECT_THAT(error.what(), HasSubstr("a.Unit: 2 units; must be as many as a matrix beside it"));
   }
 }
 
@@ -164,6 +163,20 @@ TEST_F(MatUnits, AListOfUnitsBesideAListOfNamesIsTheirs) {
       {{"log", cells(3, 3,
                      {text("t"), text("s"), column(times_s()), text("tau"), text("Nm"),
                       column(torques_N_m()), text("theta"), text("deg"), column(angles_rad())})}}));
+}
+
+TEST_F(MatUnits, RowsOfAMatrixOfLettersAreAList) {
+  const auto rows_of = [](std::string letters) {  // of two rows, column by column
+    std::array<std::size_t, 2> size{2, letters.size() / 2};
+    return Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, size.data(), letters.data(), 0);
+  };
+  const auto file = read({{"t", column(times_s())},
+                          {"names", rows_of("ttahue t a")},
+                          {"units", rows_of("Nd emg")},
+                          {"data", matrix(false)}});
+  EXPECT_THAT(names_in(file), ElementsAre("t", "tau", "theta"));
+  EXPECT_EQ(file.table.columns[1].unit, "N m");
+  EXPECT_EQ(file.table.columns[2].unit, "deg");
 }
 
 TEST_F(MatUnits, TwoListsOfTheSameNamesAreOne) {

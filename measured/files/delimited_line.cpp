@@ -26,15 +26,15 @@ bool is_printed_by_c(string_view cell, std::initializer_list<string_view> words)
   });
 }
 
-std::string cell_in_lower_case(string_view cell) {
-  std::string letters(cell);
+}  // namespace
+
+std::string in_lower_case(string_view text) {
+  std::string letters(text);
   std::ranges::transform(letters, letters.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   return letters;
 }
-
-}  // namespace
 
 string_view trimmed(string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -198,7 +198,7 @@ bool is_missing_number(string_view cell) {
          is_printed_by_c(
              cell, {"1.#IND", "1.#QNAN", "1.#SNAN", "1,#IND", "1,#QNAN", "1,#SNAN", "1.#R"}) ||
          (cell.size() <= kLongestWord &&
-          std::ranges::count(kWords, string_view(cell_in_lower_case(cell))) > 0) ||
+          std::ranges::count(kWords, string_view(in_lower_case(cell))) > 0) ||
          is_over_range_sign(cell);
 }
 
@@ -210,7 +210,7 @@ bool is_over_range_sign(string_view cell) {
   if (is_printed_by_c(cell, {"1.#INF", "1,#INF"})) return true;
   if (cell.starts_with('+') || cell.starts_with('-')) cell.remove_prefix(1);
   return cell.size() <= kLongestWord &&
-         std::ranges::count(kWords, string_view(cell_in_lower_case(cell))) > 0;
+         std::ranges::count(kWords, string_view(in_lower_case(cell))) > 0;
 }
 
 bool has_thousands_separators(string_view cell, char decimal) {

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/atomic_file.hpp"
+#include "measured/files/delimited_line.hpp"
 #include "measured/files/memory_file.hpp"
 
 #include <fmt/format.h>
@@ -36,15 +37,10 @@ struct FreeVariable {
 using File = std::unique_ptr<mat_t, CloseFile>;
 using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 void require_name(const std::string& name) {
-  const bool fits = !name.empty() && name.size() <= kLongestName && is_letter(name.front()) &&
-                    std::ranges::all_of(name, [](char c) {
-                      return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
-                    });
+  const bool fits =
+      !name.empty() && name.size() <= kLongestName && is_letter(name.front()) &&
+      std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
   if (!fits)
     throw std::invalid_argument(fmt::format("\"{}\" is not a valid .mat variable name", name));
 }

@@ -1,4 +1,5 @@
 #include "arm/input_error.hpp"
+#include "measured/files/delimited_line.hpp"
 #include "measured/files/mat_levels.hpp"
 
 #include <fmt/format.h>
@@ -62,11 +63,10 @@ std::optional<Level4Header> header_of(std::string_view bytes) {
 
 /// A letter, then letters, digits and _, ended by 0.
 std::optional<std::string> name_of(std::string_view bytes) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   if (bytes.empty() || !is_letter(bytes.front()) || bytes.back() != '\0') return std::nullopt;
   std::string name(bytes.substr(0, bytes.find('\0')));
   for (const char c : name) {
-    if (!is_letter(c) && (c < '0' || c > '9') && c != '_') return std::nullopt;
+    if (!is_letter(c) && !is_digit(c) && c != '_') return std::nullopt;
   }
   return name;
 }

@@ -32,14 +32,6 @@ constexpr std::array<string_view, 4> kTimeFields = {"time", "t", "tout", "timest
 /// Segments of the path of a block that say nothing of the signal.
 constexpr std::array<string_view, 5> kPorts = {"out", "in", "value", "output", "signal"};
 
-std::string lower(string_view text) {
-  std::string letters(text);
-  std::ranges::transform(letters, letters.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return letters;
-}
-
 /// "units", "channelUnits", "Einheiten".
 bool names_units(string_view path) {
   const std::string field = mat_field(path);
@@ -87,7 +79,7 @@ string_view without_quotes(string_view text) {
 }
 
 bool is_port(string_view segment) {
-  const std::string letters = lower(segment);
+  const std::string letters = in_lower_case(segment);
   const auto end = letters.find_last_not_of("0123456789");
   const string_view word = string_view(letters).substr(0, end == std::string::npos ? 0 : end + 1);
   return word.empty() || std::ranges::count(kPorts, word) > 0;
@@ -137,7 +129,7 @@ string_view owner_of(string_view path) {
 
 std::string mat_field(string_view path) {
   string_view field = path.substr(path.rfind('.') + 1);
-  return lower(field.substr(0, field.find_first_of("({")));
+  return in_lower_case(field.substr(0, field.find_first_of("({")));
 }
 
 std::optional<std::string> unit_of_frequency_name(string_view path) {

@@ -41,20 +41,12 @@ constexpr string_view kFunctions[] = {"abs",  "sqrt", "sin",    "cos",  "tan", "
 /// Symbols of which a point behind them is a derivative, and no sign of a shortened word.
 constexpr string_view kSymbols[] = {"theta", "omega", "tau"};
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-bool is_name_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 bool is_beyond_ascii(char c) {
   return static_cast<unsigned char>(c) >= 0x80U;
 }
 
 bool begins_with_name(string_view text) {
-  return !text.empty() && (is_name_letter(text.front()) || is_beyond_ascii(text.front()) ||
+  return !text.empty() && (is_letter(text.front()) || is_beyond_ascii(text.front()) ||
                            text.front() == '(' || text.front() == '|');
 }
 
@@ -71,8 +63,8 @@ std::size_t number_end(string_view text, std::size_t begin) {
 bool is_times(string_view text, std::size_t at) {
   if (text[at] == '*') return true;
   const bool is_x = text[at] == 'x' || text[at] == 'X';
-  return is_x && (at == 0 || !is_name_letter(text[at - 1])) &&
-         (at + 1 == text.size() || !is_name_letter(text[at + 1]));
+  return is_x && (at == 0 || !is_letter(text[at - 1])) &&
+         (at + 1 == text.size() || !is_letter(text[at + 1]));
 }
 
 std::size_t first_behind_blanks(string_view text, std::size_t at) {
@@ -116,7 +108,7 @@ std::optional<NameChange> function_in(string_view text) {
 std::optional<NameChange> quotient_in(string_view text) {
   const auto at = text.find("/dt");
   if (!text.starts_with('d') || at == string_view::npos) return std::nullopt;
-  if (at + 3 < text.size() && is_name_letter(text[at + 3])) return std::nullopt;
+  if (at + 3 < text.size() && is_letter(text[at + 3])) return std::nullopt;
   string_view rest = trimmed(at == 1 ? text.substr(4) : text.substr(1, at - 1));
   if (rest.starts_with('(') && rest.ends_with(')')) rest = rest.substr(1, rest.size() - 2);
   const bool is_once = text.find('^') == string_view::npos;
@@ -149,10 +141,10 @@ std::optional<NameChange> number_behind(const std::string& text) {
     const bool is_index = number.size() == 1 || (number[0] == '0' && is_digit(number[1]));
     const auto digits = text.find_last_not_of("0123456789", last);
     const bool is_range =
-        is_digit(text[last]) && (digits == std::string::npos || !is_name_letter(text[digits]));
+        is_digit(text[last]) && (digits == std::string::npos || !is_letter(text[digits]));
     if (is_index || is_range) return std::nullopt;
   }
-  const bool is_behind_name = is_name_letter(text[last]) || is_digit(text[last]) ||
+  const bool is_behind_name = is_letter(text[last]) || is_digit(text[last]) ||
                               is_beyond_ascii(text[last]) || text[last] == ')' || text[last] == ']';
   const bool is_exponent = last + 1 == sign && last > 0 &&
                            (text[last] == 'e' || text[last] == 'E') && is_digit(text[last - 1]);

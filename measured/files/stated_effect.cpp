@@ -4,6 +4,7 @@
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "measured/files/arm_file.hpp"
+#include "measured/files/delimited_line.hpp"
 #include "measured/files/toml_node.hpp"
 
 #include <fmt/format.h>
@@ -75,9 +76,8 @@ class StatedEffectReader {
   }
 
   void require_name(const toml::table& table) {
-    const bool is_plain = std::ranges::all_of(name_, [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    });
+    const bool is_plain =
+        std::ranges::all_of(name_, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
     if (is_plain && !name_.empty()) return;
     add_fault(line_of_node(table),
               fmt::format("{}: the name of a stated law must be letters, digits and _", key_));

@@ -25,14 +25,6 @@ constexpr std::int64_t kHour_ns = 60 * kMinute_ns;
 constexpr std::int64_t kDay_ns = 24 * kHour_ns;
 constexpr std::size_t kLongestStamp = 64;
 
-bool is_of_number(char c) {
-  return c >= '0' && c <= '9';
-}
-
-bool is_of_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 /// Takes a text apart from its front.
 class StampText {
  public:
@@ -66,8 +58,8 @@ class StampText {
     return taken;
   }
 
-  string_view digits() { return take_while(is_of_number); }
-  string_view letters() { return take_while(is_of_word); }
+  string_view digits() { return take_while(is_digit); }
+  string_view letters() { return take_while(is_letter); }
 
  private:
   string_view rest_;
@@ -123,7 +115,7 @@ bool read_date(string_view text, TimeStamp& stamp) {
   std::size_t named = parts.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto is_of_name = [](char c) {
-      return is_of_word(c) || static_cast<unsigned char>(c) > 127;
+      return is_letter(c) || static_cast<unsigned char>(c) > 127;
     };
     parts[i] = rest.digits();
     if (parts[i].empty() && named == parts.size()) {
@@ -172,7 +164,7 @@ std::int64_t billionths(string_view digits) {
 /// Reads the text behind the clock: AM or PM, then a time zone.
 bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns, bool& has_zone) {
   rest.pass_blanks();
-  for (int words = 0; words < 2 && is_of_word(rest.peek()); ++words) {
+  for (int words = 0; words < 2 && is_letter(rest.peek()); ++words) {
     std::string word = plain_letters(rest.letters());
     if (rest.take('.')) {  // a.m.
       word += plain_letters(rest.letters());
@@ -245,7 +237,7 @@ std::string long_form(string_view text) {
   constexpr std::size_t kDate = 8;
   constexpr std::size_t kClock = 15;
   if (text.size() < kClock || text[kDate] != 'T') return "";
-  const auto is_digits = [](string_view part) { return std::ranges::all_of(part, is_of_number); };
+  const auto is_digits = [](string_view part) { return std::ranges::all_of(part, is_digit); };
   if (!is_digits(text.substr(0, kDate)) || !is_digits(text.substr(kDate + 1, kClock - kDate - 1))) {
     return "";
   }
@@ -328,7 +320,7 @@ std::optional<TimeStamp> parse_time_stamp(string_view cell) {
     return stamp;
   }
   std::size_t begin = colon;
-  while (begin > 0 && is_of_number(text[begin - 1])) --begin;
+  while (begin > 0 && is_digit(text[begin - 1])) --begin;
   string_view date = trimmed(text.substr(0, begin));
   if (date.ends_with('T') || date.ends_with('_') || date.ends_with(',')) date.remove_suffix(1);
   const auto days = days_in(trimmed(date));

@@ -154,22 +154,6 @@ constexpr std::array<std::pair<string_view, string_view>, 20> kSigns = {{
     {"_per_", "/"},
 }};
 
-bool is_unit_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-bool is_digit_of_unit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-std::string in_lower_case(string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return out;
-}
-
 std::string without_blanks(string_view text) {
   std::string out;
   std::ranges::copy_if(text, std::back_inserter(out), [](char c) { return !is_blank(c); });
@@ -214,7 +198,7 @@ bool has_mega(string_view text) {
                                                        "m", "g",  "strain", "deg"};
   for (std::size_t begin = 0; begin < text.size();) {
     std::size_t end = begin;
-    while (end < text.size() && is_unit_letter(text[end])) ++end;
+    while (end < text.size() && is_letter(text[end])) ++end;
     const string_view word = text.substr(begin, end - begin);
     if (word.starts_with('M') && std::ranges::count(kMegaSymbols, word.substr(1)) > 0) return true;
     begin = std::max(end, begin + 1);
@@ -233,7 +217,7 @@ class FactorReader {
     while (true) {
       skip_blanks();
       const std::size_t begin = at_;
-      while (at_ < text_.size() && is_unit_letter(text_[at_])) ++at_;
+      while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
       const string_view word = find_in(words_, text_.substr(begin, at_ - begin));
       if (word.empty() || word == "1") return std::nullopt;
       const auto power = read_power();
@@ -264,13 +248,13 @@ class FactorReader {
     if (is_marked) ++at;
     const bool is_negative = at < text_.size() && text_[at] == '-';
     if (is_negative || (at < text_.size() && text_[at] == '+')) ++at;
-    if (at >= text_.size() || !is_digit_of_unit(text_[at])) {
+    if (at >= text_.size() || !is_digit(text_[at])) {
       if (is_marked) return std::nullopt;
       return 1;
     }
     const int power = text_[at] - '0';
     at_ = at + 1;
-    if (at_ < text_.size() && is_digit_of_unit(text_[at_])) return std::nullopt;
+    if (at_ < text_.size() && is_digit(text_[at_])) return std::nullopt;
     return is_negative ? -power : power;
   }
 

@@ -40,12 +40,6 @@ std::optional<std::pair<std::string_view, std::string_view>> split_at_colon(std:
   return std::pair{text.substr(0, at), text.substr(at + 1)};
 }
 
-std::vector<std::string> names_of(std::span<const ColumnLabel> columns) {
-  std::vector<std::string> names;
-  for (const auto& column : columns) names.push_back(column.name);
-  return names;
-}
-
 /// NAME:UNIT:SCALE as typed; what is not typed is empty.
 struct TypedColumn {
   std::size_t place = 0;
@@ -68,7 +62,8 @@ TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> colu
     unit = parts->second.substr(0, parts->second.find(':'));
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
-  if (!place) throw measured::unknown_column(names_of(columns), text.substr(0, text.find(':')));
+  if (!place)
+    throw measured::unknown_column(measured::column_names(columns), text.substr(0, text.find(':')));
   return {*place, name, unit, scale};
 }
 
@@ -138,7 +133,7 @@ ColumnMapping mapping_of(const std::string& quantity, const ComputedColumn& comp
   if (mapping.expression.empty()) throw InputError("no expression behind =");
   measured::require_valid(quantity, mapping, false);
   mapping.scale = measured::scale_of_unit(quantity, mapping.unit);
-  measured::columns_in(mapping.expression, names_of(columns));
+  measured::columns_in(mapping.expression, measured::column_names(columns));
   return mapping;
 }
 
@@ -295,10 +290,11 @@ std::vector<measured::PartColumn> ColumnChoice::response_parts(
 std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLabel> columns) const {
   std::vector<std::size_t> places;
   for (const auto& name : left_out) {
-    const auto place = measured::column_place(names_of(columns), name);
+    const auto place = measured::column_place(measured::column_names(columns), name);
     if (!place) {
       throw InputError(
-          fmt::format("--leave-out: {}", measured::unknown_column(names_of(columns), name).what()));
+          fmt::format("--leave-out: {}",
+                      measured::unknown_column(measured::column_names(columns), name).what()));
     }
     places.push_back(*place);
   }

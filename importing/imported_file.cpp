@@ -100,12 +100,10 @@ RunKind kind_of(const ForeignFile& file, std::optional<RunKind> given) {
 
 /// A table with texts in it as CSV, each row on the line that it has in the file.
 std::string csv_of(const ForeignTable& table) {
-  std::vector<std::string> names;
-  for (const auto& column : table.columns) names.push_back(column.name);
   std::string out;
   int line = 1;
   for (; line + 1 < table.line_of_row.front(); ++line) out += '\n';
-  out += fmt::format("{}\n", fmt::join(names, ","));
+  out += fmt::format("{}\n", fmt::join(measured::column_names(table.columns), ","));
   ++line;
   for (std::size_t row = 0; row < table.line_of_row.size(); ++row) {
     for (; line < table.line_of_row[row]; ++line) out += '\n';
@@ -125,9 +123,7 @@ std::string csv_of(const ForeignTable& table) {
 }
 
 std::string join_names(const std::vector<ColumnLabel>& labels) {
-  std::vector<std::string> names;
-  for (const auto& label : labels) names.push_back(label.name);
-  return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
+  return arm::shown(fmt::format("{}", fmt::join(measured::column_names(labels), ", ")), 400);
 }
 
 /// "; Strom (A) may be a motor current; state it with ...", of the columns that may be it.
@@ -323,8 +319,7 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
       measured::guess_columns(labels, choice.columns.mappings(labels, imported.assumptions));
   choice.columns.set_time_unit(guess.mappings);
   require_told(guess, labels, file, choice.is_one_of_several);
-  std::vector<std::string> names;
-  for (const auto& label : labels) names.push_back(label.name);
+  const std::vector<std::string> names = measured::column_names(labels);
   auto used = measured::places_used(guess.mappings, names);
   if (choice.controller) {
     imported.reference = choice.columns.reference_column(labels, guess.mappings, *choice.controller,

@@ -50,8 +50,7 @@ measured::ColumnMappings mappings_by_columns(const ForeignFile& file, const Colu
     const auto response = response_of(i);
     columns[i].unit = response == file.responses.end() ? "" : response->unit;
   }
-  std::vector<std::string> names;
-  for (const auto& column : columns) names.push_back(column.name);
+  const std::vector<std::string> names = measured::column_names(columns);
   auto mappings = choice.mappings(columns, imported.assumptions);
   std::ranges::move(unit_contradictions(mappings, columns), std::back_inserter(imported.warnings));
   for (auto& [quantity, mapping] : mappings) {

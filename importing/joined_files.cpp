@@ -57,13 +57,11 @@ measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const Fi
     std::ranges::move(unit_contradictions({*time}, labels), std::back_inserter(notes));
     return time->second;
   }
-  std::vector<std::string> names;
-  for (const auto& label : labels) names.push_back(label.name);
-  throw InputError(
-      fmt::format("time: column not recognised; columns: {}; each file that is joined needs one: "
-                  "assign it with "
-                  "--column time=NAME:UNIT",
-                  arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+  throw InputError(fmt::format(
+      "time: column not recognised; columns: {}; each file that is joined needs one: "
+      "assign it with "
+      "--column time=NAME:UNIT",
+      arm::shown(fmt::format("{}", fmt::join(measured::column_names(labels), ", ")), 400)));
 }
 
 void require_increasing(const std::vector<double>& times_s) {
@@ -117,9 +115,7 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
     }
     const auto labels = labels_of(columns);
     const auto mapping = time_of(labels, choice, assumptions);
-    std::vector<std::string> names;
-    for (const auto& label : labels) names.push_back(label.name);
-    const std::size_t place = measured::column_place(names, mapping.name).value();
+    const std::size_t place = measured::column_place(labels, mapping.name).value();
     for (auto& column : columns) {
       const std::string note = measured::take_out_over_range(column, name);
       if (!note.empty()) assumptions.push_back(note);
@@ -166,8 +162,7 @@ std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
   const auto torque = guess.mappings.find("torque");
   std::set<std::string> held;
   if (torque == guess.mappings.end()) return held;
-  std::vector<std::string> names;
-  for (const auto& label : labels) names.push_back(label.name);
+  const std::vector<std::string> names = measured::column_names(labels);
   for (const auto place : measured::places_used({*torque}, names)) held.insert(names[place]);
   return held;
 }

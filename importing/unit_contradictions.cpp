@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_expression.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/unit_spelling.hpp"
 
@@ -62,8 +63,7 @@ bool is_unlike(const std::string& quantity, const ColumnMapping& mapping, const 
 
 std::vector<std::string> unit_contradictions(const measured::ColumnMappings& mappings,
                                              std::span<const ColumnLabel> columns) {
-  std::vector<std::string> names;
-  for (const auto& column : columns) names.push_back(column.name);
+  const std::vector<std::string> names = measured::column_names(columns);
   std::vector<std::string> sentences;
   const auto add = [&](const std::string& quantity, const ColumnMapping& mapping,
                        const ColumnLabel& column) {

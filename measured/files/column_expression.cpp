@@ -128,9 +128,7 @@ class Rewriter {
   }
 
   std::size_t name_end(std::size_t at) const {
-    const auto is_of_name = [](char c) {
-      return begins_name(c) || arm::is_decimal(c) || c == '.';
-    };
+    const auto is_of_name = [](char c) { return begins_name(c) || arm::is_decimal(c) || c == '.'; };
     while (at < all_.size() && is_of_name(all_[at])) ++at;
     return at;
   }
@@ -289,8 +287,7 @@ std::vector<std::size_t> columns_in(const std::string& expression,
 
 std::vector<double> evaluate_expression(const std::string& expression, const ForeignTable& table,
                                         std::span<const double> times_s) {
-  std::vector<std::string> names;
-  for (const auto& column : table.columns) names.push_back(column.name);
+  const std::vector<std::string> names = column_names(table.columns);
   const Rewritten rewritten = read_expression(expression);
   const auto places = places_of(expression, rewritten, names);
   std::vector<std::vector<double>> columns;

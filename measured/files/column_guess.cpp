@@ -263,9 +263,7 @@ std::optional<std::size_t> column_place(std::span<const ColumnLabel> columns, st
   if (by_path != columns.end() && !typed.empty()) {
     return static_cast<std::size_t>(by_path - columns.begin());
   }
-  std::vector<std::string> names;
-  for (const auto& column : columns) names.push_back(column.name);
-  return column_place(names, typed);
+  return column_place(column_names(columns), typed);
 }
 
 std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
@@ -280,8 +278,7 @@ std::vector<ColumnLabel> labels_of(const ForeignTable& table) {
 ColumnGuess guess_columns(std::span<const ColumnLabel> columns, const ColumnMappings& given) {
   ColumnGuess guess;
   guess.mappings = given;
-  std::vector<std::string> names;
-  for (const auto& column : columns) names.push_back(column.name);
+  const std::vector<std::string> names = column_names(columns);
   std::vector<bool> is_given(columns.size(), false);
   for (const auto& [quantity, mapping] : given) {
     if (!mapping.expression.empty()) continue;

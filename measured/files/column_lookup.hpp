@@ -7,8 +7,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace flexarm::measured {
+
+/// The names of columns or of their labels.
+template <class Columns>
+std::vector<std::string> column_names(const Columns& columns) {
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  return names;
+}
 
 /// The number in "#3", counted from 1; empty for any other text.
 std::optional<std::size_t> column_number(std::string_view typed);

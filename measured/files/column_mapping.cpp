@@ -72,7 +72,7 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
 }
 
 std::string column_list(const ForeignTable& table) {
-  return arm::shown(fmt::format("{}", fmt::join(column_names(table), ", ")), 400);
+  return arm::shown(fmt::format("{}", fmt::join(column_names(table.columns), ", ")), 400);
 }
 
 /// `what` names the numbers in an error: "column u".
@@ -245,12 +245,6 @@ ColumnMappings standard_mapping(const std::string& header) {
   } catch (const InputError&) {
     return {};
   }
-}
-
-std::vector<std::string> column_names(const ForeignTable& table) {
-  std::vector<std::string> names;
-  for (const auto& column : table.columns) names.push_back(column.name);
-  return names;
 }
 
 std::vector<std::size_t> places_used(const ColumnMappings& mappings,

@@ -79,9 +79,6 @@ void require_valid(const std::string& standard_name, const ColumnMapping& mappin
 /// The standard mapping that a header in the form `hub_angle [rad]` says; none for any other.
 ColumnMappings standard_mapping(const std::string& header);
 
-/// Names of the columns of a table.
-std::vector<std::string> column_names(const ForeignTable& table);
-
 /// The places of the columns that the mappings take, by themselves or in an expression. Throws
 /// InputError for a column that is not there.
 std::vector<std::size_t> places_used(const ColumnMappings& mappings,

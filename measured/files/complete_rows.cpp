@@ -1,6 +1,7 @@
 #include "measured/files/complete_rows.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/missing_signs.hpp"
 #include "measured/files/record_constants.hpp"
 #include "measured/files/time_grid.hpp"
@@ -29,7 +30,7 @@ struct UsedColumn {
 /// Each used column once, the first quantity that takes it.
 std::vector<UsedColumn> used_columns(const ForeignTable& table, const ColumnMappings& mappings,
                                      const ColumnMapping* reference) {
-  const std::vector<std::string> names = column_names(table);
+  const std::vector<std::string> names = column_names(table.columns);
   std::vector<UsedColumn> used;
   const auto add = [&](std::size_t place, const std::string& quantity) {
     if (std::ranges::count(used, place, &UsedColumn::place) > 0) return;

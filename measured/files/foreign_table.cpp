@@ -337,8 +337,7 @@ std::vector<std::string> stray_texts(const ForeignTable& table) {
 }
 
 std::size_t find_column(const ForeignTable& table, string_view name) {
-  std::vector<std::string> names;
-  for (const auto& column : table.columns) names.push_back(column.name);
+  const std::vector<std::string> names = column_names(table.columns);
   const auto place = column_place(names, name);
   if (!place) throw unknown_column(names, name);
   return *place;

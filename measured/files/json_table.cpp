@@ -3,6 +3,7 @@
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "measured/files/column_builder.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/json_reading.hpp"
@@ -368,8 +369,7 @@ class JsonTableBuilder {
       if (!unit.key.empty() || unit.text.empty()) continue;
       for (ForeignColumn* column : columns_beside(unit, columns)) give_unit(*column, unit);
     }
-    std::vector<std::string> names;
-    for (const auto& column : columns) names.push_back(column.name);
+    std::vector<std::string> names = column_names(columns);
     names.insert(names.end(), singles_.begin(), singles_.end());
     keyed.place(names, "list");
     for (auto& column : columns) {

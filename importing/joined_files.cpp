@@ -34,14 +34,6 @@ bool is_of_time(const std::string& typed) {
   return typed.starts_with("time=") || typed.starts_with("time ");
 }
 
-std::vector<ColumnLabel> labels_of(const std::vector<ForeignColumn>& columns) {
-  std::vector<ColumnLabel> labels;
-  for (const auto& column : columns) {
-    labels.push_back({column.name, column.unit, column.is_text(), column.is_stamp, column.path});
-  }
-  return labels;
-}
-
 /// The column that holds the time of a file, and its unit.
 measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const FileChoice& choice,
                                 std::vector<std::string>& notes) {
@@ -113,7 +105,7 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
           "--join needs a time and a signal or more in each file; state the sampling period of "
           "files without times with --period");
     }
-    const auto labels = labels_of(columns);
+    const auto labels = measured::labels_of(read.contents.table);
     const auto mapping = time_of(labels, choice, assumptions);
     const std::size_t place = measured::column_place(labels, mapping.name).value();
     for (auto& column : columns) {
@@ -152,11 +144,10 @@ TimedSignals timed_signals(ReadFile read, const FileChoice& choice,
 /// The columns that make the torque, which is held between samples.
 std::set<std::string> torque_columns(const std::vector<TimedSignals>& files,
                                      const ColumnChoice& choice) {
-  std::vector<ForeignColumn> columns = {{"time [s]", "s", {}}};
+  std::vector<ColumnLabel> labels = {{"time [s]", "s"}};
   for (const auto& file : files) {
-    for (const auto& column : file.columns) columns.push_back({column.name, column.unit, {}});
+    for (const auto& column : file.columns) labels.push_back({column.name, column.unit});
   }
-  const auto labels = labels_of(columns);
   std::vector<std::string> notes;  // those of the joined table are the same
   const auto guess = measured::guess_columns(labels, choice.mappings(labels, notes));
   const auto torque = guess.mappings.find("torque");

@@ -122,14 +122,6 @@ std::string later_number(const ColumnLabel& label) {
   return arm::parse_number<int>(number).value_or(2) < 2 ? "" : number;
 }
 
-/// The option that states a column in a unit that is none of its quantity.
-std::string stated_in(string_view quantity, const std::string& name, string_view unit) {
-  const string_view likely = quantity == "hub_velocity" && unit == "1/s"     ? "rad/s' or ':rev/s"
-                             : quantity == "tip_acceleration" && unit == "G" ? "g"
-                                                                             : "UNIT:SCALE";
-  return fmt::format("--column '{}={}:{}'", quantity, name, likely);
-}
-
 /// Returns the question about a column whose name changes a quantity.
 ColumnQuestion question_of_change(const ColumnLabel& label, const NameChange& change,
                                   string_view quantity) {
@@ -201,8 +193,9 @@ std::optional<ColumnQuestion> question_about(const ColumnLabel& label) {
     if (is_unit_of(quantity, label.unit)) continue;
     return ColumnQuestion{
         label.name,
-        fmt::format("{} may be {}, but {} is no unit of it; state it with {}", column, quantity,
-                    arm::shown(label.unit), stated_in(quantity, name, label.unit)),
+        fmt::format("{} may be {}, but {} is no unit of it; state it with --column "
+                    "'{}={}:UNIT:SCALE'",
+                    column, quantity, arm::shown(label.unit), quantity, name),
         quantity == "torque"};
   }
   return std::nullopt;

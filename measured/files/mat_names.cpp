@@ -41,10 +41,11 @@ bool names_units(string_view path) {
 
 /// The number of signals in a matrix, 1 of any other variable.
 std::size_t signals_in(const MatVariable& variable) {
-  const auto* real = std::get_if<MatMatrix>(&variable.value);
-  if (real != nullptr) return std::min(real->rows, real->columns);
-  const auto* complex = std::get_if<MatComplexMatrix>(&variable.value);
-  return complex == nullptr ? 1 : std::min(complex->rows, complex->columns);
+  const auto count = [](const auto& value) -> std::size_t {
+    if constexpr (requires { value.columns; }) return std::min(value.rows, value.columns);
+    return 1;
+  };
+  return std::visit(count, variable.value);
 }
 
 /// Whether a text is by its field a label or the unit of frequencies.

@@ -109,7 +109,6 @@ const std::vector<CompoundUnit>& compound_units() {
        {},
        {"ozfin", "ozf*in", "ozf-in", "ozf.in", "ozin", "oz*in", "oz-in", "in-oz", "in*oz", "in-ozf",
         "in*ozf", "inoz", "inozf"}},
-      {"1/s", {{{"s", -1}}}, {}},  // of no quantity alone: rad/s or rev/s
       {"rad/s", {{{"rad", 1}, {"s", -1}}}, {"rad_s", "rads_s", "rads-1", "rads^-1"}},
       {"mrad/s", {{{"mrad", 1}, {"s", -1}}}, {"mrad_s"}},
       {"deg/s", {{{"deg", 1}, {"s", -1}}}, {"deg_s", "degs_s", "dps"}},

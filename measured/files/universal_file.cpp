@@ -3,7 +3,6 @@
 #include "arm/input_error.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/record_constants.hpp"
-#include "measured/files/text_file.hpp"
 #include "measured/files/universal_grid.hpp"
 #include "measured/files/universal_layout.hpp"
 
@@ -363,11 +362,6 @@ UniversalFile parse_universal_file(string_view bytes, const std::string& file_na
     throw arm::located(error, file_name, cursor.line());
   }
   return file;
-}
-
-UniversalFile read_universal_file(const std::filesystem::path& path) {
-  return parse_universal_file(measured::read_text_file(path, kLargestRecord_bytes),
-                              arm::shown(path.string()));
 }
 
 }  // namespace flexarm::measured

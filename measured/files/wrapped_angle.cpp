@@ -52,7 +52,7 @@ std::string unwrap(ForeignColumn& column, std::string_view unit, double scale) {
   return fmt::format(
       "{} jumps by a whole turn, {:.6g}, {} times from a sample to the next; {}",
       arm::shown(column.name), turn, jumps,
-      is_sure ? "it is unwrapped" : "if it is recorded within one turn, unwrap it in the file");
+      is_sure ? "unwrapped" : "if it is recorded within one turn, unwrap it in the file");
 }
 
 }  // namespace flexarm::measured

@@ -122,10 +122,6 @@ std::string csv_of(const ForeignTable& table) {
   return out;
 }
 
-std::string join_names(const std::vector<ColumnLabel>& labels) {
-  return arm::shown(fmt::format("{}", fmt::join(measured::column_names(labels), ", ")), 400);
-}
-
 /// "; Strom (A) may be a motor current; state it with ...", of the columns that may be it.
 std::string asked(const measured::ColumnGuess& guess, bool torque_alone) {
   std::string text;
@@ -182,7 +178,8 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
     throw InputError(fmt::format(
         "{0}: column not recognised; columns: {1}{2}; assign one with --column "
         "{0}=NAME:UNIT:SCALE{3}{4}{5}{6}{7}{8}",
-        quantity, join_names(labels), is_time ? likely_time(file.table) : "", otherwise,
+        quantity, measured::shown_names(measured::column_names(labels)),
+        is_time ? likely_time(file.table) : "", otherwise,
         quantity == std::string_view("torque") ? asked(guess, true) : "", besides(file.left_out),
         file.incomplete_response.empty() ? ""
                                          : "; no frequency response: " + file.incomplete_response,
@@ -196,10 +193,11 @@ void require_told(const measured::ColumnGuess& guess, const std::vector<ColumnLa
         fmt::format("no column is a sensor; {0}: {1}? Choose one with --column {0}=NAME", quantity,
                     arm::shown(fmt::format("{}", fmt::join(names, " or ")), 400)));
   }
-  throw InputError(fmt::format(
-      "no column is a sensor; columns: {}; assign one with --column "
-      "hub_angle=NAME:UNIT:SCALE{}{}{}{}",
-      join_names(labels), asked(guess, false), besides(file.left_out), strays(file.table), join));
+  throw InputError(
+      fmt::format("no column is a sensor; columns: {}; assign one with --column "
+                  "hub_angle=NAME:UNIT:SCALE{}{}{}{}",
+                  measured::shown_names(measured::column_names(labels)), asked(guess, false),
+                  besides(file.left_out), strays(file.table), join));
 }
 
 void read_text_kind(const ForeignFile& file, ImportedFile& imported) {
@@ -250,24 +248,6 @@ void warn_of_unrecorded(const arm::Controller& controller, ImportedFile& importe
         "the controller reads {0}, which is no column; the loop cannot be simulated with these "
         "data, but with the recorded torque; assign a column with --column {0}=NAME:UNIT:SCALE",
         name));
-  }
-}
-
-/// Unwraps the hub angle, and angles by their unit among the columns that are used.
-void unwrap_angles(ForeignTable& table, const measured::ColumnMappings& mappings,
-                   const std::vector<std::size_t>& used, std::vector<std::string>& notes) {
-  const auto add = [&](std::string note) {
-    if (!note.empty() && std::ranges::count(notes, note) == 0) notes.push_back(std::move(note));
-  };
-  const auto angle = mappings.find("hub_angle");
-  if (angle != mappings.end() && angle->second.expression.empty()) {
-    const auto& mapping = angle->second;
-    auto& column = table.columns[measured::find_column(table, mapping.name)];
-    add(measured::unwrap(column, mapping.unit, mapping.scale));
-  }
-  for (const std::size_t place : used) {
-    auto& column = table.columns[place];
-    add(measured::unwrap(column, column.unit));
   }
 }
 
@@ -331,7 +311,15 @@ void read_mapped(ForeignFile& file, const FileChoice& choice, ImportedFile& impo
     if (std::ranges::count(used, i) == 0) imported.not_used.push_back(names[i]);
   }
   imported.assumptions.insert(imported.assumptions.end(), guess.notes.begin(), guess.notes.end());
-  unwrap_angles(file.table, guess.mappings, used, imported.assumptions);
+  for (const auto& [quantity, mapping] : guess.mappings) {
+    for (const auto place : measured::places_used({{quantity, mapping}}, names)) {
+      auto& column = file.table.columns[place];
+      const bool is_angle = quantity == "hub_angle" && mapping.expression.empty();
+      const std::string note = is_angle ? measured::unwrap(column, mapping.unit, mapping.scale)
+                                        : measured::unwrap(column, column.unit);
+      if (!note.empty()) imported.assumptions.push_back(note);
+    }
+  }
   std::ranges::move(unit_contradictions(guess.mappings, labels),
                     std::back_inserter(imported.warnings));
   imported.warnings.insert(imported.warnings.end(), guess.warnings.begin(), guess.warnings.end());

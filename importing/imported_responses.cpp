@@ -11,7 +11,6 @@
 #include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -34,7 +33,7 @@ std::string response_names(const ForeignFile& file) {
   for (const auto& response : file.responses) {
     for (const auto column : response.columns) names.push_back(file.table.columns[column].name);
   }
-  return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
+  return measured::shown_names(names);
 }
 
 /// Responses in columns are typed by any of these: each such name becomes that of the response.

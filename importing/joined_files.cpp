@@ -49,11 +49,11 @@ measured::ColumnMapping time_of(const std::vector<ColumnLabel>& labels, const Fi
     std::ranges::move(unit_contradictions({*time}, labels), std::back_inserter(notes));
     return time->second;
   }
-  throw InputError(fmt::format(
-      "time: column not recognised; columns: {}; each file that is joined needs one: "
-      "assign it with "
-      "--column time=NAME:UNIT",
-      arm::shown(fmt::format("{}", fmt::join(measured::column_names(labels), ", ")), 400)));
+  throw InputError(
+      fmt::format("time: column not recognised; columns: {}; each file that is joined needs one: "
+                  "assign it with "
+                  "--column time=NAME:UNIT",
+                  measured::shown_names(measured::column_names(labels))));
 }
 
 void require_increasing(const std::vector<double>& times_s) {

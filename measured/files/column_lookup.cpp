@@ -22,6 +22,10 @@ std::vector<std::string> names_without_units(std::span<const std::string> names)
 
 }  // namespace
 
+std::string shown_names(std::span<const std::string> names) {
+  return arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400);
+}
+
 std::optional<std::size_t> column_number(std::string_view typed) {
   if (!typed.starts_with('#')) return std::nullopt;
   return arm::parse_number<std::size_t>(typed.substr(1));
@@ -52,8 +56,7 @@ arm::InputError unknown_column(std::span<const std::string> names, std::string_v
     meant = fmt::format(" (did you mean {}?)", arm::shown(names[static_cast<std::size_t>(place)]));
   }
   return arm::InputError(fmt::format("column {}: not in the file{}; it has {}", arm::shown(typed),
-                                     meant,
-                                     arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+                                     meant, shown_names(names)));
 }
 
 }  // namespace flexarm::measured

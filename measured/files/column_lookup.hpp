@@ -19,6 +19,9 @@ std::vector<std::string> column_names(const Columns& columns) {
   return names;
 }
 
+/// "time, torque": names as they may stand in a line.
+std::string shown_names(std::span<const std::string> names);
+
 /// The number in "#3", counted from 1; empty for any other text.
 std::optional<std::size_t> column_number(std::string_view typed);
 

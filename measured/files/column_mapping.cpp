@@ -71,10 +71,6 @@ std::vector<std::optional<Source>> sources_of(const ForeignTable& table,
   return sources;
 }
 
-std::string column_list(const ForeignTable& table) {
-  return arm::shown(fmt::format("{}", fmt::join(column_names(table.columns), ", ")), 400);
-}
-
 /// `what` names the numbers in an error: "column u".
 std::vector<double> si_values(const ForeignTable& table, const std::vector<double>& numbers,
                               const std::string& what, const Source& source, std::size_t& row) {
@@ -292,8 +288,8 @@ TimeRecord uneven_record_of(const ForeignTable& table, const ColumnMappings& map
     in_row = false;
     for (const auto name : {kTime, kTorque}) {
       if ((name == kTime ? record.time_s : record.torque_N_m).empty()) {
-        throw InputError(
-            fmt::format("{}: no column assigned; columns: {}", name, column_list(table)));
+        throw InputError(fmt::format("{}: no column assigned; columns: {}", name,
+                                     shown_names(column_names(table.columns))));
       }
     }
     const std::size_t samples = record.time_s.size();

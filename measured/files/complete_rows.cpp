@@ -194,8 +194,7 @@ class RowKeeper {
     }
     if (kept_.rows.empty()) {
       throw InputError(
-          fmt::format("no row has a number in each of the columns {}",
-                      arm::shown(fmt::format("{}", fmt::join(used_names(), ", ")), 400)));
+          fmt::format("no row has a number in each of the columns {}", shown_names(used_names())));
     }
     const std::size_t incomplete = kept_.rows_in_file - kept_.rows.size();
     if (incomplete == 0) return;

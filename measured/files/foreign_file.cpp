@@ -1,6 +1,7 @@
 #include "measured/files/foreign_file.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/file_kind.hpp"
 #include "measured/files/foreign_mat.hpp"
@@ -14,7 +15,6 @@
 #include "measured/files/universal_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -132,8 +132,7 @@ void note_conventions(const UniversalFile& universal,
   file.table.assumptions.push_back(
       fmt::format("data set 164 has units, {}, which are not applied; units not given: {}; state "
                   "them with --column QUANTITY=NAME:UNIT",
-                  arm::shown(universal.units),
-                  arm::shown(fmt::format("{}", fmt::join(without_unit, ", ")), 400)));
+                  arm::shown(universal.units), shown_names(without_unit)));
 }
 
 void add_responses(const std::vector<const UniversalFunction*>& functions, ForeignFile& file) {
@@ -339,8 +338,7 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
       }
       if (std::ranges::count(names, mapping.name) == 1) continue;
       throw InputError(fmt::format("response {}: not in the file; it has {}",
-                                   arm::shown(mapping.name),
-                                   arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+                                   arm::shown(mapping.name), shown_names(names)));
     }
     for (const auto& response : file.responses) {
       ColumnMappings own;
@@ -366,7 +364,7 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
       throw InputError(
           fmt::format("no response is mapped to a sensor; responses: {}; assign one with --column "
                       "hub_angle=NAME:UNIT:SCALE",
-                      arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+                      shown_names(names)));
     }
     format_frequency_record(record);  // throws for what is out of range
   } catch (const InputError& error) {

@@ -1,6 +1,7 @@
 #include "measured/files/foreign_mat.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/json_times.hpp"
 #include "measured/files/mat_file.hpp"
@@ -200,8 +201,7 @@ void use_paths_of_namesakes(ForeignTable& table) {
   }
   if (told.empty()) return;
   table.assumptions.push_back(
-      fmt::format("names are those of the labels in the file: {}",
-                  arm::shown(fmt::format("{}", fmt::join(told, ", ")), 400)));
+      fmt::format("names are those of the labels in the file: {}", shown_names(told)));
 }
 
 void read_other_variables(std::vector<MatVariable> all, ForeignFile& file) {

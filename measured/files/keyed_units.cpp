@@ -1,12 +1,12 @@
 #include "measured/files/keyed_units.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/unit_spelling.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -135,8 +135,7 @@ void KeyedUnits::place(std::span<const std::string> signals, string_view kind) {
     }
     if (is_placed(unit.place) || !unit.is_listed || !is_canonical_unit(unit.text)) continue;
     throw InputError(fmt::format("{} = {}: no {} has this name; must be one of {}",
-                                 arm::shown(unit.place), unit.text, kind,
-                                 arm::shown(fmt::format("{}", fmt::join(signals, ", ")), 400)));
+                                 arm::shown(unit.place), unit.text, kind, shown_names(signals)));
   }
 }
 

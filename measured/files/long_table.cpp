@@ -1,12 +1,12 @@
 #include "measured/files/long_table.hpp"
 
 #include "arm/input_error.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/record_constants.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -161,10 +161,9 @@ ForeignTable without_long_form(ForeignTable table) {
   }
   std::vector<std::string> names;
   for (std::size_t i = 1; i < made.columns.size(); ++i) names.push_back(made.columns[i].name);
-  made.assumptions.push_back(
-      fmt::format("rows of {}, {} and {} are taken as columns: {}", arm::shown(times.name),
-                  arm::shown(table.columns[form->names].name), arm::shown(values.name),
-                  arm::shown(fmt::format("{}", fmt::join(names, ", ")), 400)));
+  made.assumptions.push_back(fmt::format(
+      "rows of {}, {} and {} are taken as columns: {}", arm::shown(times.name),
+      arm::shown(table.columns[form->names].name), arm::shown(values.name), shown_names(names)));
   return made;
 }
 

@@ -52,8 +52,7 @@ mu::Parser new_parser() {
 
 /// Letters, underscores, and all that is no ASCII, such as Greek.
 bool begins_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-         static_cast<unsigned char>(c) >= 0x80U;
+  return is_letter(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
 }
 
 [[noreturn]] void refuse_expression(const std::string& expression, const std::string& why) {

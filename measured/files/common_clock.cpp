@@ -77,12 +77,11 @@ class CommonClock {
   /// Local time of one file beside a known zone of another may be hours off.
   void require_same_zone(const TimedSignals& file) const {
     if (file.start->has_zone == files_[base_].start->has_zone) return;
-    const auto& zoned = file.start->has_zone ? file : files_[base_];
-    const auto& local = file.start->has_zone ? files_[base_] : file;
+    const bool is_base = files_[base_].start->has_zone;
     throw InputError(fmt::format(
         "--join: the times of {} have a time zone, those of {} have none; must be told in both, "
         "12:00:00Z or 12:00:00+01:00, or in neither",
-        zoned.file, local.file));
+        (is_base ? files_[base_] : file).file, (is_base ? file : files_[base_]).file));
   }
 
   void find_offsets() {

@@ -325,8 +325,7 @@ FrequencyRecord frequency_record_of(const ForeignFile& file, const ColumnMapping
                                     const std::string& file_name) {
   FrequencyRecord record;
   try {
-    std::vector<std::string> names;
-    for (const auto& response : file.responses) names.push_back(response.name);
+    const std::vector<std::string> names = column_names(file.responses);
     if (!file.response_fault.empty()) throw InputError(file.response_fault);
     if (names.empty()) {
       throw InputError(

@@ -131,7 +131,8 @@ void KeyedUnits::place(std::span<const std::string> signals, string_view kind) {
   for (const auto& [key, unit] : told_) {
     if (is_placed(unit.place)) continue;
     for (const auto& path : signals) {
-      if (is_called(path, unit.key)) give(path, unit);
+      const bool is_open = unit.is_listed || !given_.contains(path);
+      if (is_open && is_called(path, unit.key)) give(path, unit);
     }
     if (is_placed(unit.place) || !unit.is_listed || !is_canonical_unit(unit.text)) continue;
     throw InputError(fmt::format("{} = {}: no {} has this name; must be one of {}",

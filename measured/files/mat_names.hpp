@@ -28,8 +28,8 @@ struct MatSignalName {
 /// the frequencies beside it, as is a `Unit` of Hz or kHz.
 class MatNames {
  public:
-  /// Throws InputError for a unit of a signal that is there and is no text of one row, and for a
-  /// list of units that is not as long as that of the names, or of no signal (`KeyedUnits`).
+  /// Throws InputError for a unit of a signal that is there and is no text, and for a list of units
+  /// that is not as long as that of the names, of no signals beside it, or as `KeyedUnits` does.
   explicit MatNames(const std::vector<MatVariable>& variables,
                     const std::vector<std::string>& left_out);
 

@@ -74,8 +74,8 @@ bool is_mat_file(std::string_view bytes);
 /// The variables of a MATLAB file, in its order: of level 5 (-v6, compressed -v7), 7.3 (HDF5) or 4
 /// (-v4). Real and complex matrices of any class of numbers, as doubles; texts, of several rows as
 /// lists; columns or rows of texts. The field f of a structure s is a variable "s.f", that of the
-/// second of several "s(2).f", the second cell of c "c{2}", or "c{1,2}" where there are several rows
-/// and columns. Arrays of more dimensions are vectors along the longest of them, "x(2,3,:)".
+/// second of several "s(2).f", the second cell of c "c{2}", or "c{1,2}" where there are several
+/// rows and columns. Arrays of more dimensions are vectors along the longest of them, "x(2,3,:)".
 ///
 /// Throws InputError "PATH: what is wrong" for a file that cannot be read, is none, or is damaged.
 MatContents read_mat_contents(const std::filesystem::path& path);

@@ -83,9 +83,9 @@ struct UniversalOptions {
 /// 754, little and big endian), even and uneven abscissa, real and complex, single and double
 /// precision.
 ///
-/// Throws InputError `FILE:LINE: what is wrong` for bytes that are no universal file or are cut off,
-/// and for numbers that are none or not finite; lines count as far as the text goes, a fault within
-/// bytes is told by its data set. `file_name` stands in the errors.
+/// Throws InputError `FILE:LINE: what is wrong` for bytes that are no universal file or are cut
+/// off, and for numbers that are none or not finite; lines count as far as the text goes, a fault
+/// within bytes is told by its data set. `file_name` stands in the errors.
 UniversalFile parse_universal_file(std::string_view bytes, const std::string& file_name);
 
 /// The functions as the bytes of a file, which `parse_universal_file` reads back. In double

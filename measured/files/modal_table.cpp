@@ -54,7 +54,7 @@ constexpr std::array<NumberColumn, 6> kNumbers = {{
 /// The last of them.
 constexpr std::size_t kShapeColumns = 2;
 
-const std::vector<std::string>& column_names() {
+const std::vector<std::string>& table_columns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all = {kSensor, kFeature, kOrder};
     for (const auto& column : kNumbers) all.emplace_back(column.name);
@@ -65,17 +65,17 @@ const std::vector<std::string>& column_names() {
 
 /// The header line; most tables have no shapes.
 std::string header_line(bool has_shapes) {
-  const std::span names(column_names());
+  const std::span names(table_columns());
   return fmt::format("{}",
                      fmt::join(names.first(names.size() - (has_shapes ? 0 : kShapeColumns)), ","));
 }
 
 /// " (did you mean ...?)", also for a column without its unit.
 std::string meant_column(const std::string& typed) {
-  for (const auto& name : column_names()) {
+  for (const auto& name : table_columns()) {
     if (name.starts_with(typed + " [")) return fmt::format(" (did you mean {}?)", name);
   }
-  return arm::did_you_mean(typed, column_names());
+  return arm::did_you_mean(typed, table_columns());
 }
 
 /// Where each column stands in a row.
@@ -88,9 +88,9 @@ ModalHeader read_modal_header(const CsvRow& row) {
   ModalHeader header;
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
     const std::string& name = row.cells[i];
-    if (std::ranges::count(column_names(), name) == 0) {
+    if (std::ranges::count(table_columns(), name) == 0) {
       throw InputError(fmt::format("column {}: unknown{}; allowed: {}", arm::shown(name),
-                                   meant_column(name), fmt::join(column_names(), ", ")));
+                                   meant_column(name), fmt::join(table_columns(), ", ")));
     }
     if (!header.emplace(name, i).second) {
       throw InputError(fmt::format("column {}: given twice", name));

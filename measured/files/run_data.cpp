@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "measured/files/column_expression.hpp"
+#include "measured/files/column_lookup.hpp"
 #include "measured/files/foreign_table.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ TimeRecord read_log(const std::filesystem::path& file, const Run& run) {
     if (reference.expression.empty()) {
       find_column(table, reference.name);
     } else {
-      columns_in(reference.expression, column_names(table));
+      columns_in(reference.expression, column_names(table.columns));
     }
   } catch (const InputError& error) {
     throw InputError(

@@ -22,6 +22,7 @@ Entry actuator_lag() {
         return {{"time_constant", 0.02 * scales.shortest_time_s, 2000.0 * scales.shortest_time_s,
                  Spacing::from_zero}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "phase lag and attenuation increasing with frequency in all sensors; poles and zeros "
           "unchanged",

@@ -45,6 +45,7 @@ Entry attached_mass() {
                     {"position", 0.05 * length_m, length_m, Spacing::linear}};
           },
           .contains = {"payload_mass"},
+          .prior = Likely::rare,
           .speaks_for =
               "poles and zeros lowered by different ratios; a mode with a node at the mass "
               "unchanged; tip-acceleration zeros shifted",

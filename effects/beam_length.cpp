@@ -39,6 +39,7 @@ Entry beam_length() {
         return {
             {.name = "factor", .lowest = shortest_factor(scales), .highest = 1.6, .neutral = 1.0}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "all poles and zeros shifted by the same ratio, 1/length^2; rigid-body inertia changed "
           "as length^3",

@@ -31,6 +31,7 @@ Entry beam_thickness() {
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
         return {{.name = "factor", .lowest = 0.6, .highest = 1.6, .neutral = 1.0}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "all poles and zeros, and the rigid-body inertia of the beam, changed by the same ratio",
       .refuted_by = "unchanged rigid-body inertia"};

@@ -25,6 +25,7 @@ Entry coulomb_friction() {
         return {{"torque", 3e-3 * scales.torque_rms_N_m, 3.0 * scales.torque_rms_N_m,
                  Spacing::from_zero}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "residual hub torque depends on the sign of the hub velocity; apparent damping decreases "
           "with amplitude",

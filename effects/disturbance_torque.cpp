@@ -57,6 +57,7 @@ Entry disturbance_torque() {
                 {"frequency", 1e-3 / scales.shortest_time_s, 0.125 / scales.shortest_time_s},
                 {"phase", 0.0, kTurn_rad, Spacing::linear, true}};
       },
+      .prior = Likely::rare,
       .speaks_for = "residual hub torque periodic in time, also where the arm rests",
       .refuted_by = "a period that depends on the motion of the hub, or another phase in each run"};
 }

@@ -20,6 +20,7 @@ Entry flexural_rigidity() {
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
         return {{.name = "factor", .lowest = 0.3, .highest = 3.3, .neutral = 1.0}};
       },
+      .prior = Likely::common,
       .speaks_for = "all poles and zeros shifted by the same ratio; rigid-body inertia unchanged",
       .refuted_by = "poles and zeros shifted by different ratios"};
 }

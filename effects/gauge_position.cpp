@@ -57,6 +57,7 @@ Entry gauge_position() {
               [](const Scales& scales) {
                 return scales.sensor && scales.sensor->kind == arm::SensorKind::strain;
               },
+          .prior = Likely::rare,
           .speaks_for = "zeros of one strain gauge shifted; poles and the other sensors unchanged",
           .refuted_by =
               "an error of that gauge in the same ratio at all frequencies (that is a sensor "

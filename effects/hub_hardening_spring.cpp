@@ -28,6 +28,7 @@ Entry hub_hardening_spring() {
             const double bending = scales.bending_stiffness_N_m_per_rad();
             return {{"coefficient", 1e-4 * bending, 1e3 * bending, Spacing::from_zero}};
           },
+          .prior = Likely::rare,
           .speaks_for =
               "restoring residual hub torque that grows with the cube of the hub angle; frequency "
               "of slow motion rises with amplitude",

@@ -19,6 +19,7 @@ Entry hub_inertia() {
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
         return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "poles shifted; hub-angle zeros (the poles with the hub locked) unchanged",
       .refuted_by = "shifted hub-angle zeros"};

@@ -24,6 +24,7 @@ Entry hub_viscous_friction() {
                 arm::total_inertia_kg_m2(scales.beam) * arm::omega_scale_rad_per_s(scales.beam);
             return {{"coefficient", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
           },
+          .prior = Likely::common,
           .speaks_for =
               "residual hub torque proportional to hub velocity, with the same coefficient at "
               "every amplitude",

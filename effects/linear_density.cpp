@@ -19,6 +19,7 @@ Entry linear_density() {
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
             return {{.name = "factor", .lowest = 0.3, .highest = 3.3, .neutral = 1.0}};
           },
+          .prior = Likely::common,
           .speaks_for = "lower poles and zeros, larger rigid-body inertia",
           .refuted_by = "unchanged rigid-body inertia"};
 }

@@ -40,6 +40,7 @@ Entry local_stiffness_loss() {
                     searched_stiffness(scales, 300.0)};
           },
           .contains = {"root_compliance"},
+          .prior = Likely::rare,
           .speaks_for =
               "poles and zeros lowered by different ratios; a mode without curvature at the crack "
               "unchanged",

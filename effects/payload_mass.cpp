@@ -21,6 +21,7 @@ Entry payload_mass() {
             const double beam_kg = scales.beam_mass_kg();
             return {{"mass", 1e-3 * beam_kg, 4.0 * beam_kg, Spacing::from_zero}};
           },
+          .prior = Likely::common,
           .speaks_for = "hub-angle zeros shifted, tip-acceleration zeros unchanged",
           .refuted_by = "shifted tip-acceleration zeros"};
 }

@@ -58,6 +58,7 @@ Entry quadratic_drag() {
             const double natural = scales.beam.linear_density_kg_per_m / scales.beam.length_m;
             return {{"coefficient", 1e-3 * natural, 60.0 * natural, Spacing::from_zero}};
           },
+          .prior = Likely::rare,
           .speaks_for = "apparent damping increases with amplitude",
           .refuted_by = "apparent damping independent of amplitude"};
 }

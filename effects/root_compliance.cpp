@@ -16,6 +16,7 @@ Entry root_compliance() {
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             return {searched_stiffness(scales)};
           },
+          .prior = Likely::common,
           .speaks_for =
               "lower poles and hub-angle zeros; phase lag of root strain behind the hub angle",
           .refuted_by = "unchanged hub-angle zeros"};

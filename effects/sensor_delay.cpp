@@ -26,6 +26,7 @@ Entry sensor_delay() {
         return {{"delay", 20.0 * scales.shortest_time_s, 400.0 * scales.shortest_time_s,
                  Spacing::from_zero}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "phase lag proportional to frequency in one sensor only; its magnitude unchanged",
       .refuted_by =

@@ -22,6 +22,7 @@ Entry sensor_gain() {
       .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
         return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
       },
+      .prior = Likely::common,
       .speaks_for =
           "one sensor scaled by the same ratio at all frequencies; poles, zeros and the other "
           "sensors unchanged",

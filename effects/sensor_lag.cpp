@@ -24,6 +24,7 @@ Entry sensor_lag() {
             return {{"time_constant", 0.02 * scales.shortest_time_s,
                      1000.0 * scales.shortest_time_s, Spacing::from_zero}};
           },
+          .prior = Likely::common,
           .speaks_for = "phase lag and magnitude roll-off in one sensor only",
           .refuted_by = "the same phase lag in other sensors"};
 }

@@ -27,6 +27,7 @@ Entry sensor_offset() {
                      .neutral = 0.0}};
           },
           .applies = [](const Scales& scales) { return scales.reading_rms > 0.0; },
+          .prior = Likely::common,
           .speaks_for = "a constant error of one sensor, the same in all runs",
           .refuted_by = "an error that grows with time or is absent while the arm rests"};
 }

@@ -23,6 +23,7 @@ Entry structural_damping() {
             const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
             return {{"time", 1e-3 / scale_rad_per_s, 2.0 / scale_rad_per_s, Spacing::from_zero}};
           },
+          .prior = Likely::common,
           .speaks_for = "damping ratios proportional to natural frequency",
           .refuted_by = "damping ratios that decrease with natural frequency"};
 }

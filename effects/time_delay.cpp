@@ -24,6 +24,7 @@ Entry time_delay() {
             return {{"delay", -4.0 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
                      Spacing::about_zero}};
           },
+          .prior = Likely::common,
           .speaks_for = "phase lag proportional to frequency; poles, zeros and magnitude unchanged",
           .refuted_by = "magnitude roll-off with frequency (that is a lag)"};
 }

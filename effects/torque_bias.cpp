@@ -23,6 +23,7 @@ Entry torque_bias() {
                  .spacing = Spacing::linear,
                  .neutral = 0.0}};
       },
+      .prior = Likely::common,
       .speaks_for = "constant residual hub torque; the hub accelerates in one direction",
       .refuted_by = "no motion at zero commanded torque"};
 }

@@ -21,6 +21,7 @@ Entry torque_gain() {
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
             return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
           },
+          .prior = Likely::common,
           .speaks_for = "all sensors scaled by the same ratio; poles and zeros unchanged",
           .refuted_by = "shifted poles or zeros"};
 }

@@ -63,6 +63,7 @@ Entry torque_ripple() {
           .applies = [](const Scales& scales) { return fewest_cycles(scales) < kMostCycles; },
           // Of few cycles, over a part of a turn.
           .contains = {"hub_spring", "torque_bias"},
+          .prior = Likely::rare,
           .speaks_for = "residual hub torque periodic in the hub angle",
           .refuted_by = "a residual hub torque at the same angle that differs between revolutions"};
 }

@@ -73,6 +73,7 @@ Entry tuned_mass() {
                 {"position", 0.05 * length_m, length_m, Spacing::linear}};
       },
       .contains = {"attached_mass"},
+      .prior = Likely::rare,
       .speaks_for =
           "one pole more than the beam has, and with it one zero of the hub angle; a notch in "
           "the response at the mass's own frequency",

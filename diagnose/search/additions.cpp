@@ -3,6 +3,7 @@
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/hub_law_scan.hpp"
 #include "diagnose/search/refit_projection.hpp"
+#include "diagnose/search/start_places.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,9 +20,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Sizes of the change that a value makes, where its range does not bound them.
-constexpr double kLeastSize = 0.25;
-constexpr double kMostSize = 2.5;
 /// values_near_base, of the size that a test finds.
 constexpr double kNear = 0.05;
 /// Starts of an effect at a place along the beam <= this.
@@ -29,107 +27,9 @@ constexpr std::size_t kMostPlaces = 3;
 /// A change that is smaller than this part of the residuals is rounding.
 constexpr double kLeastChange = 1e-6;
 
-using Places = std::vector<double>;
-
-/// The coordinate of an effect's place along the beam; 0 of one without.
-double place_along_beam(const Hypothesis& hypothesis, const Places& places) {
-  const auto place = hypothesis.place_parameter();
-  return place ? places[*place] : 0.0;
-}
-
-/// Places over a range.
-constexpr double kMiddle = 0.5;
-const std::vector<double> kSpread = {0.15, kMiddle, 0.85};
-
-/// Places in the range of its one parameter. Beside a value within the range at which it does
-/// nothing: next to it the change is its direction, and further off, on either side, that of an
-/// effect that is larger. Else the middle, and near to where it does nothing.
-std::vector<double> first_places(const SearchedParameter& parameter) {
-  const auto neutral = parameter.neutral_coordinate();
-  if (!neutral) return kSpread;
-  if (parameter.spacing == effects::Spacing::about_zero) {
-    return {parameter.coordinate(0.75 * parameter.lowest),
-            *neutral + kSpread.front() * (1.0 - *neutral), *neutral + kMiddle * (1.0 - *neutral)};
-  }
-  if (*neutral > 0.0 && *neutral < 1.0) {
-    std::vector<double> places;
-    for (const double change : {0.004, -0.03, 0.03}) places.push_back(*neutral + change);
-    std::erase_if(places, [](double place) { return place <= 0.0 || place >= 1.0; });
-    return places;
-  }
-  return {*neutral < kMiddle ? kSpread.front() : kSpread.back(), kMiddle};
-}
-
-/// A few values of a hypothesis' parameters, as places in their ranges: over these, and of several
-/// at one size.
-std::vector<Places> samples_of(const Hypothesis& hypothesis) {
-  const std::vector<double> along_beam = {0.1, 0.3, 0.5, 0.7, 0.9};
-  const std::size_t n = hypothesis.parameters.size();
-  const auto sized = hypothesis.size_parameter();
-  std::vector<Places> samples = {{}};
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> places = i == hypothesis.place_parameter() ? along_beam : kSpread;
-    if (i == sized) places = {kMiddle};
-    if (n == 1) places = first_places(hypothesis.parameters.front());
-    std::vector<Places> longer;
-    for (const Places& sample : samples) {
-      for (const double place : places) {
-        longer.push_back(sample);
-        longer.back().push_back(place);
-      }
-    }
-    samples = std::move(longer);
-  }
-  return samples;
-}
-
-/// Sizes that a change may have, the one at `places` being 1: those within the range of the
-/// parameter that gives it, where that goes on both sides of the value at which it does nothing.
-std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const Places& places) {
-  const auto sized = hypothesis.size_parameter();
-  const double neutral = sized ? *hypothesis.parameters[*sized].neutral_coordinate() : 0.0;
-  if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
-  const SearchedParameter& parameter = hypothesis.parameters[*sized];
-  if (parameter.spacing == effects::Spacing::about_zero) {
-    const double value = parameter.value(places[*sized]);
-    return std::minmax(parameter.lowest / value, parameter.highest / value);
-  }
-  const double change = places[*sized] - neutral;
-  return std::minmax(-neutral / change, (1.0 - neutral) / change);
-}
-
-/// The place at which a parameter does `size` times what it does at `place`. From or about zero an
-/// effect is proportional to the value, from infinity to its reciprocal.
-double place_at(const SearchedParameter& parameter, double place, double size) {
-  switch (parameter.spacing) {
-    case effects::Spacing::from_zero:
-    case effects::Spacing::about_zero:
-      return parameter.coordinate(size * parameter.value(place));
-    case effects::Spacing::from_infinity:
-      return parameter.coordinate(parameter.value(place) / size);
-    case effects::Spacing::linear:
-    case effects::Spacing::logarithmic:
-      break;
-  }
-  const auto neutral = parameter.neutral_coordinate();
-  return neutral ? *neutral + size * (place - *neutral) : place;
-}
-
-std::vector<double> values_at(const Hypothesis& hypothesis, Places places, double size) {
-  if (const auto sized = hypothesis.size_parameter()) {
-    double& place = places[*sized];
-    place = std::clamp(place_at(hypothesis.parameters[*sized], place, size), 0.0, 1.0);
-  }
-  return effects::values_at(hypothesis.parameters, places);
-}
-
-Places places_of(const Hypothesis& hypothesis, const std::vector<double>& values) {
-  return effects::coordinates_of(hypothesis.parameters, values);
-}
-
 /// Of a law of hub torque with several parameters: the best that a regression on the measured
 /// motion finds beside the base. A few values would miss its period.
-std::optional<Places> scanned_law(const Problem& problem, const Fit& base, const Hypothesis& effect,
+std::optional<StartPlaces> scanned_law(const Problem& problem, const Fit& base, const Hypothesis& effect,
                                   const SelectionOptions& options, const ReportedWork& work) {
   if (effect.parameters.size() < 2) return std::nullopt;
   const auto law = scan_hub_law(
@@ -155,7 +55,7 @@ class EffectScore {
         work_(work) {}
 
   /// Returns whether the effect changes residuals there.
-  bool try_at(const Places& places) {
+  bool try_at(const StartPlaces& places) {
     work_.go_on();
     const auto with = problem_.residuals(
         base_.candidate.with(effect_, effects::values_at(effect_.parameters, places)),
@@ -186,14 +86,14 @@ class EffectScore {
   /// Some effects of one parameter do nothing up to a threshold: an actuator saturates where a
   /// torque reaches its limit. Between neighbours of these places, one of which changes nothing,
   /// looks nearer to that one.
-  void try_threshold(const std::vector<Places>& samples) {
+  void try_threshold(const std::vector<StartPlaces>& samples) {
     constexpr int kBisections = 5;
     std::map<double, bool> changes;
     const auto try_each = [&](double place) { changes[place] = try_at({place}); };
-    for (const Places& places : samples) try_each(places.front());
+    for (const StartPlaces& places : samples) try_each(places.front());
     const auto is_idle = [](const auto& tried) { return !tried.second; };
     if (std::ranges::none_of(changes, is_idle)) return;
-    std::ranges::for_each(kSpread, try_each);
+    std::ranges::for_each(kSpreadPlaces, try_each);
     const auto edge = std::ranges::adjacent_find(
         changes, [](const auto& one, const auto& next) { return one.second != next.second; });
     if (edge == changes.end()) return;
@@ -286,7 +186,7 @@ std::vector<Addition> additions(const Problem& problem, const Fit& base,
     } else if (effect.parameters.size() == 1) {
       scores[i].try_threshold(samples_of(effect));
     } else {
-      for (const Places& places : samples_of(effect)) scores[i].try_at(places);
+      for (const StartPlaces& places : samples_of(effect)) scores[i].try_at(places);
     }
   });
   std::vector<EffectScore*> ranked;

@@ -51,6 +51,12 @@ constexpr std::string_view to_string(PredictorKind kind) {
   return "";
 }
 
+/// How sets of effects are searched for.
+enum class SearchMethod {
+  staged,  ///< by excess residual over noise, in stages (selection.hpp)
+  ranked,  ///< by one score (ranked/ranked_search.hpp); output error and closed loop alone
+};
+
 /// How many effects are tried with a base.
 struct Tried {
   /// Looked at <= this: those that explain most by a score test.
@@ -74,6 +80,7 @@ struct SetGrowth {
 
 /// Every threshold of the search, each with what it enforces.
 struct SelectionOptions {
+  SearchMethod method = SearchMethod::staged;
   /// Causes named <= this: three of the arm, and one of its recording.
   int most_causes = 4;
   /// Chosen by evidence (predictor_choice.hpp) unless given.

@@ -19,6 +19,26 @@ enum class Shows {
   in_all,
 };
 
+/// How likely an arm in a laboratory has an effect that its file does not state, before the data.
+enum class Likely {
+  common,    ///< most arms: friction, damping, a number that is off, a late or scaled signal
+  possible,  ///< some arms
+  rare,      ///< a fault, or a device that whoever wrote the file would have known
+};
+
+/// The probability of that.
+constexpr double probability_of(Likely prior) {
+  switch (prior) {
+    case Likely::common:
+      return 0.2;
+    case Likely::possible:
+      return 0.04;
+    case Likely::rare:
+      return 0.008;
+  }
+  return 0.0;
+}
+
 /// All that the product knows of an effect. Each file `effects/NAME.cpp` defines one function
 /// `Entry NAME()`, which the build finds by the name of the file.
 struct Entry {
@@ -34,6 +54,8 @@ struct Entry {
   /// Effects that are the same model by another name: no data distinguish them from this one. They
   /// have as many parameters, each with the same meaning to the model.
   std::vector<std::string> same_as = {};
+  /// How likely an arm has it before anything is measured.
+  Likely prior = Likely::possible;
   std::string speaks_for;  ///< what the data show where it is the cause
   std::string refuted_by;  ///< what would show that it is not
 };

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "diagnose/ranked/likelihood.hpp"
+#include "diagnose/search/candidate.hpp"
+#include "diagnose/search/reported_work.hpp"
+
+#include <Eigen/Core>
+
+#include <limits>
+
+namespace flexarm::diagnose {
+
+/// A candidate at the maximum of its likelihood on some runs.
+struct RankedFit {
+  Candidate candidate = {};
+  Eigen::VectorXd residuals = {};  ///< Problem::residuals
+  Eigen::VectorXd lines = {};      ///< Likelihood::lines of these
+  Eigen::MatrixXd jacobian = {};   ///< lines by Candidate::coordinates
+  double cost = std::numeric_limits<double>::infinity();   ///< -2 ln L
+  double score = std::numeric_limits<double>::infinity();  ///< cost and price
+  bool converged = false;
+
+  bool is_possible() const { return cost < std::numeric_limits<double>::infinity(); }
+};
+
+/// Standard deviation of the prior of a place in the range of a parameter.
+inline constexpr double kPlaceDeviation = 0.3;
+
+/// Returns the price of a fitted candidate beside its -2 ln L,
+///
+///     sum over effects of -2 ln p  +  ln det(I + P J^T W J),
+///
+/// p the probability of the effect before the data (effects::Entry::prior), P the prior variance of
+/// nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the lines: the Laplace
+/// approximation of the evidence. A parameter that the data determine to a thousandth of its range
+/// costs 2 ln(0.3/0.001) = 11.4.
+double price(const Candidate& candidate, const Eigen::MatrixXd& jacobian,
+             const Eigen::VectorXd& weights);
+
+struct RankedFitOptions {
+  int most_steps = 20;
+  /// Converged where a step is expected to lower -2 ln L by less than this.
+  double tolerance = 0.05;
+};
+
+/// Returns the fit nearest to `start`: iteratively reweighted least squares with the damping of
+/// Levenberg and Marquardt, places from 0 to 1. Not `is_possible` where the start cannot be
+/// computed. Throws Cancelled where the work is cancelled.
+RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start,
+                     const ReportedWork& work, const RankedFitOptions& options = {});
+
+}  // namespace flexarm::diagnose

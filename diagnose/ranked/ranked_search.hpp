@@ -1,0 +1,40 @@
+#pragma once
+
+#include "diagnose/ranked/ranked_fit.hpp"
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// How far the ranked search goes.
+struct RankedOptions {
+  std::size_t beam = 3;   ///< sets that grow at a time
+  std::size_t looks = 6;  ///< effects fitted beside each, the best by the score test
+  /// Samples of each run on the rungs below all data.
+  std::array<std::size_t, 3> rungs = {400, 1600, 6400};
+};
+
+/// The sets of effects that a search ends with, fitted to all estimation runs, the best first.
+struct RankedSets {
+  std::vector<RankedFit> best = {};
+  RankedFit nothing = {};  ///< the arm as filed
+  bool is_complete = true;
+};
+
+/// Searches the set of effects with the lowest score (ranked_fit.hpp): on a ladder of ever more
+/// data, whose last rung is all estimation runs,
+///
+/// - a beam of sets grows by one effect at a time, those that the score test ranks first, while the
+///   best score falls;
+/// - the best set is improved by dropping an effect, and by swapping one for another, while that
+///   lowers the score.
+///
+/// `problem` and `hypotheses` must outlive the result. After the deadline of the work: what was
+/// fitted to all data by then. Throws Cancelled where the work is cancelled otherwise.
+RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                         const RankedOptions& options, ReportedWork& work);
+
+}  // namespace flexarm::diagnose

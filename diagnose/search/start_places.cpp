@@ -1,0 +1,104 @@
+#include "diagnose/search/start_places.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+/// Sizes of the change that a value makes, where its range does not bound them.
+constexpr double kLeastSize = 0.25;
+constexpr double kMostSize = 2.5;
+constexpr double kMiddle = 0.5;
+
+/// Places in the range of its one parameter. Beside a value within the range at which it does
+/// nothing: next to it the change is its direction, and further off, on either side, that of an
+/// effect that is larger. Else the middle, and near to where it does nothing.
+std::vector<double> first_places(const SearchedParameter& parameter) {
+  const auto neutral = parameter.neutral_coordinate();
+  if (!neutral) return kSpreadPlaces;
+  if (parameter.spacing == effects::Spacing::about_zero) {
+    return {parameter.coordinate(0.75 * parameter.lowest),
+            *neutral + kSpreadPlaces.front() * (1.0 - *neutral), *neutral + kMiddle * (1.0 - *neutral)};
+  }
+  if (*neutral > 0.0 && *neutral < 1.0) {
+    std::vector<double> places;
+    for (const double change : {0.004, -0.03, 0.03}) places.push_back(*neutral + change);
+    std::erase_if(places, [](double place) { return place <= 0.0 || place >= 1.0; });
+    return places;
+  }
+  return {*neutral < kMiddle ? kSpreadPlaces.front() : kSpreadPlaces.back(), kMiddle};
+}
+
+/// The place at which a parameter does `size` times what it does at `place`. From or about zero an
+/// effect is proportional to the value, from infinity to its reciprocal.
+double place_at(const SearchedParameter& parameter, double place, double size) {
+  switch (parameter.spacing) {
+    case effects::Spacing::from_zero:
+    case effects::Spacing::about_zero:
+      return parameter.coordinate(size * parameter.value(place));
+    case effects::Spacing::from_infinity:
+      return parameter.coordinate(parameter.value(place) / size);
+    case effects::Spacing::linear:
+    case effects::Spacing::logarithmic:
+      break;
+  }
+  const auto neutral = parameter.neutral_coordinate();
+  return neutral ? *neutral + size * (place - *neutral) : place;
+}
+
+}  // namespace
+
+std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis) {
+  const std::vector<double> along_beam = {0.1, 0.3, 0.5, 0.7, 0.9};
+  const std::size_t n = hypothesis.parameters.size();
+  const auto sized = hypothesis.size_parameter();
+  std::vector<StartPlaces> samples = {{}};
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> places = i == hypothesis.place_parameter() ? along_beam : kSpreadPlaces;
+    if (i == sized) places = {kMiddle};
+    if (n == 1) places = first_places(hypothesis.parameters.front());
+    std::vector<StartPlaces> longer;
+    for (const StartPlaces& sample : samples) {
+      for (const double place : places) {
+        longer.push_back(sample);
+        longer.back().push_back(place);
+      }
+    }
+    samples = std::move(longer);
+  }
+  return samples;
+}
+
+std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const StartPlaces& places) {
+  const auto sized = hypothesis.size_parameter();
+  const double neutral = sized ? *hypothesis.parameters[*sized].neutral_coordinate() : 0.0;
+  if (!(neutral > 0.0 && neutral < 1.0)) return {kLeastSize, kMostSize};
+  const SearchedParameter& parameter = hypothesis.parameters[*sized];
+  if (parameter.spacing == effects::Spacing::about_zero) {
+    const double value = parameter.value(places[*sized]);
+    return std::minmax(parameter.lowest / value, parameter.highest / value);
+  }
+  const double change = places[*sized] - neutral;
+  return std::minmax(-neutral / change, (1.0 - neutral) / change);
+}
+
+std::vector<double> values_at(const Hypothesis& hypothesis, StartPlaces places, double size) {
+  if (const auto sized = hypothesis.size_parameter()) {
+    double& place = places[*sized];
+    place = std::clamp(place_at(hypothesis.parameters[*sized], place, size), 0.0, 1.0);
+  }
+  return effects::values_at(hypothesis.parameters, places);
+}
+
+StartPlaces places_of(const Hypothesis& hypothesis, const std::vector<double>& values) {
+  return effects::coordinates_of(hypothesis.parameters, values);
+}
+
+double place_along_beam(const Hypothesis& hypothesis, const StartPlaces& places) {
+  const auto place = hypothesis.place_parameter();
+  return place ? places[*place] : 0.0;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "diagnose/search/hypothesis.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// Coordinates of the parameters of one effect, each a place in its range.
+using StartPlaces = std::vector<double>;
+
+/// Places over a range.
+inline const std::vector<double> kSpreadPlaces = {0.15, 0.5, 0.85};
+
+/// Returns a few values of a hypothesis' parameters to look at: of one parameter near the value at
+/// which it does nothing and over its range; of several over their ranges, the size at its middle.
+std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis);
+
+/// Returns the sizes that a change may have, the one at `places` being 1: those within the range of
+/// the parameter that gives it, where that goes on both sides of the value at which it does
+/// nothing, else 0.25 to 2.5.
+std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const StartPlaces& places);
+
+/// Returns the parameters at which the effect does `size` times what it does at `places`.
+std::vector<double> values_at(const Hypothesis& hypothesis, StartPlaces places, double size);
+StartPlaces places_of(const Hypothesis& hypothesis, const std::vector<double>& values);
+
+/// Returns the coordinate of an effect's place along the beam; 0 of one without.
+double place_along_beam(const Hypothesis& hypothesis, const StartPlaces& places);
+
+}  // namespace flexarm::diagnose

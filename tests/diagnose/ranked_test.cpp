@@ -1,0 +1,139 @@
+#include "diagnose/ranked/ranked_search.hpp"
+#include "diagnose/ranked/score_test.hpp"
+#include "effects/registry/vocabulary.hpp"
+#include "tests/diagnose/simulated_experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace flexarm::diagnose {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kCoulomb_N_m = 0.02;
+constexpr double kMass_kg = 0.05;
+
+/// A friction and a payload are hidden.
+class RankedTest : public testing::Test {
+ protected:
+  Candidate friction(double torque_N_m) const {
+    return problem_.as_filed().with(hypotheses_.front(), {torque_N_m});
+  }
+
+  const Experiment experiment_ =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", kCoulomb_N_m}}),
+                            effects::named("payload_mass", {{"mass", kMass_kg}})},
+                           {.duration_s = 1.0});
+  const Problem problem_ = Problem(experiment_);
+  const Likelihood likelihood_ = Likelihood(problem_, problem_.estimation_runs());
+  const std::vector<Hypothesis> hypotheses_ = named(
+      experiment_, {"coulomb_friction", "hub_spring", "payload_mass", "time_delay", "tuned_mass"});
+  ReportedWork work_ = ReportedWork({});
+};
+
+TEST_F(RankedTest, LinesKeepTheSumOfSquares) {
+  const auto residuals = problem_.residuals(problem_.as_filed(), problem_.estimation_runs());
+  const VectorXd lines = likelihood_.lines(*residuals);
+  // Rounding of a transform of some thousand samples.
+  EXPECT_NEAR(lines.norm() / residuals->norm(), 1.0, 1e-12);
+}
+
+TEST_F(RankedTest, LinesOfACosineAreOneLine) {
+  const ObservedChannel& channel = problem_.observations().channels.front();
+  VectorXd residuals = VectorXd::Zero(problem_.residual_count());
+  constexpr Index kLine = 7;
+  const auto n = static_cast<double>(channel.count);
+  for (Index k = 0; k < channel.count; ++k) {
+    residuals(channel.first + k) =
+        std::cos(M_PI * static_cast<double>(kLine) * (static_cast<double>(k) + 0.5) / n);
+  }
+  const VectorXd lines = likelihood_.lines(residuals);
+  EXPECT_NEAR(lines(channel.first + kLine), std::sqrt(n / 2.0), 1e-9 * n);
+  EXPECT_NEAR(lines.norm(), std::sqrt(n / 2.0), 1e-9 * n);
+}
+
+TEST_F(RankedTest, WeightsAreTheDerivativesOfTheCost) {
+  const auto residuals = problem_.residuals(problem_.as_filed(), problem_.estimation_runs());
+  const VectorXd squares = likelihood_.lines(*residuals).cwiseAbs2();
+  const VectorXd weights = likelihood_.weights(squares.cwiseSqrt());
+  for (const Index line : {Index{3}, Index{60}, Index{200}}) {
+    VectorXd more = squares;
+    const double change = 1e-5 / weights(line);
+    more(line) += change;
+    const double slope =
+        (likelihood_.cost_of_squares(more) - likelihood_.cost_of_squares(squares)) / change;
+    // The difference of two costs of some 1e4 has a rounding error of 1e-12 over a change of 1e-5.
+    EXPECT_NEAR(slope / weights(line), 1.0, 1e-4) << line;
+  }
+}
+
+TEST_F(RankedTest, CostRanksWhateverTheNoiseIs) {
+  // Half of the friction leaves less than none in the ratio that all of it does of half.
+  const auto cost = [&](double torque_N_m) {
+    return likelihood_.cost(
+        likelihood_.lines(*problem_.residuals(friction(torque_N_m), problem_.estimation_runs())));
+  };
+  EXPECT_LT(cost(kCoulomb_N_m), cost(0.5 * kCoulomb_N_m));
+  EXPECT_LT(cost(0.5 * kCoulomb_N_m), cost(0.0));
+}
+
+TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
+  const RankedFit fit = ranked_fit(likelihood_, friction(0.3 * kCoulomb_N_m), work_);
+  ASSERT_TRUE(fit.is_possible());
+  EXPECT_TRUE(fit.converged);
+  const VectorXd places = fit.candidate.coordinates();
+  for (const double step : {-0.01, 0.01}) {
+    Candidate beside = fit.candidate;
+    beside.put(places.array() + step);
+    const double cost = likelihood_.cost(
+        likelihood_.lines(*problem_.residuals(beside, problem_.estimation_runs())));
+    EXPECT_GT(cost, fit.cost - RankedFitOptions{}.tolerance) << step;
+  }
+}
+
+TEST_F(RankedTest, AScoreTestRanksWhatIsHiddenFirst) {
+  const RankedFit nothing = ranked_fit(likelihood_, problem_.as_filed(), work_);
+  std::vector<const Hypothesis*> others;
+  for (const Hypothesis& one : hypotheses_) others.push_back(&one);
+  const auto ranked = ranked_additions(likelihood_, nothing, others, 2, work_);
+  ASSERT_EQ(ranked.size(), 2U);
+  const std::set<std::string> first = {ranked[0].effect->effect, ranked[1].effect->effect};
+  EXPECT_TRUE(first.contains("payload_mass") || first.contains("coulomb_friction"));
+  EXPECT_LT(ranked[0].score, nothing.score);
+}
+
+TEST_F(RankedTest, FindsBothEffectsAndNoOther) {
+  const RankedSets sets = ranked_search(problem_, hypotheses_, {}, work_);
+  ASSERT_TRUE(sets.is_complete);
+  const Candidate& best = sets.best.front().candidate;
+  EXPECT_EQ(best.labels(), (std::set<std::string>{"coulomb_friction", "payload_mass"}));
+  for (std::size_t i = 0; i < best.effects.size(); ++i) {
+    const bool is_mass = best.effects[i].effect == "payload_mass";
+    const double hidden = is_mass ? kMass_kg : kCoulomb_N_m;
+    EXPECT_NEAR(best.values_of(i).front() / hidden, 1.0, 0.05) << best.effects[i].effect;
+  }
+}
+
+TEST(RankedSearch, FindsNothingWhereNothingIsHidden) {
+  const Experiment experiment = simulated_experiment({}, {.duration_s = 1.0});
+  const Problem problem(experiment);
+  ReportedWork work({});
+  const RankedSets sets = ranked_search(problem, hypotheses(experiment), {}, work);
+  EXPECT_EQ(sets.best.front().candidate.label(), "nothing");
+}
+
+TEST(RankedSearch, EndsWhereTheWorkIsCancelled) {
+  const Experiment experiment = simulated_experiment({}, {.duration_s = 1.0});
+  const Problem problem(experiment);
+  ReportedWork work([](std::string_view, double) { return false; });
+  EXPECT_THROW(ranked_search(problem, hypotheses(experiment), {}, work), Cancelled);
+}
+
+}  // namespace
+}  // namespace flexarm::diagnose

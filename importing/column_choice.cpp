@@ -62,8 +62,9 @@ TypedColumn read_column(std::string_view text, std::span<const ColumnLabel> colu
     unit = parts->second.substr(0, parts->second.find(':'));
     scale = colons == 1 ? std::string_view() : parts->second.substr(unit.size() + 1);
   }
-  if (!place)
+  if (!place) {
     throw measured::unknown_column(measured::column_names(columns), text.substr(0, text.find(':')));
+  }
   return {*place, name, unit, scale};
 }
 

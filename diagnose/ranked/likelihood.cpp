@@ -7,8 +7,10 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -21,39 +23,64 @@ namespace {
 /// Lines of the lowest band, at least.
 constexpr Index kFewestLines = 8;
 
-/// Replaces `values` by their orthonormal DCT-II, with one Fourier transform of the even samples
-/// followed by the odd ones in reverse [Makhoul1980].
+/// The orthonormal DCT-II of one length, by one Fourier transform of the even samples followed by
+/// the odd ones in reverse [Makhoul1980].
+class CosineTransform {
+ public:
+  explicit CosineTransform(std::size_t samples)
+      : transform_(samples), ordered_(samples), spectrum_(transform_.lines()) {
+    const auto n = static_cast<double>(samples);
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double angle = std::numbers::pi * static_cast<double>(k) / (2.0 * n);
+      turns_.push_back(std::polar(std::sqrt((k == 0 ? 1.0 : 2.0) / n), -angle));
+    }
+  }
+
+  void operator()(Eigen::Ref<VectorXd> values) {
+    const std::size_t n = ordered_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      ordered_[k % 2 == 0 ? k / 2 : n - 1 - k / 2] = values[static_cast<Index>(k)];
+    }
+    transform_(ordered_, spectrum_);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto line = k < spectrum_.size() ? spectrum_[k] : std::conj(spectrum_[n - k]);
+      values[static_cast<Index>(k)] = (line * turns_[k]).real();
+    }
+  }
+
+ private:
+  measured::RealTransform transform_;
+  std::vector<double> ordered_;
+  std::vector<std::complex<double>> spectrum_;
+  std::vector<std::complex<double>> turns_;
+};
+
+/// Replaces `values` by their DCT-II. A transform has buffers, so that each thread has its own; it
+/// keeps those of the lengths that it has met.
 void cosine_transform(Eigen::Ref<VectorXd> values) {
+  thread_local std::map<std::size_t, CosineTransform> transforms;
   const auto n = static_cast<std::size_t>(values.size());
-  std::vector<double> ordered(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    ordered[k % 2 == 0 ? k / 2 : n - 1 - k / 2] = values[static_cast<Index>(k)];
-  }
-  measured::RealTransform transform(n);
-  std::vector<std::complex<double>> spectrum(transform.lines());
-  transform(ordered, spectrum);
-  const double scale = std::sqrt(2.0 / static_cast<double>(n));
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto line = k < spectrum.size() ? spectrum[k] : std::conj(spectrum[n - k]);
-    const double angle =
-        std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(n));
-    values[static_cast<Index>(k)] = scale * (line * std::polar(1.0, -angle)).real();
-  }
-  values[0] *= std::numbers::sqrt2 / 2.0;
+  transforms.try_emplace(n, n).first->second(values);
+}
+
+/// Samples of a channel that are transformed: the first ones, as many as are quick to transform.
+Index transformed(const ObservedChannel& channel) {
+  return static_cast<Index>(measured::fast_length_within(static_cast<std::size_t>(channel.count)));
 }
 
 /// Puts the straight line between their neighbours in the place of readings that are left out.
 void bridge(const std::vector<std::size_t>& left_out, Eigen::Ref<VectorXd> values) {
   const Index n = values.size();
-  for (std::size_t i = 0; i < left_out.size();) {
+  for (std::size_t i = 0; i < left_out.size() && static_cast<Index>(left_out[i]) < n;) {
     std::size_t next = i + 1;
     while (next < left_out.size() && left_out[next] == left_out[next - 1] + 1) ++next;
     const auto first = static_cast<Index>(left_out[i]);
-    const auto last = static_cast<Index>(left_out[next - 1]);
+    const Index last = std::min(static_cast<Index>(left_out[next - 1]), n - 1);
     const double before = first > 0 ? values[first - 1] : (last + 1 < n ? values[last + 1] : 0.0);
     const double behind = last + 1 < n ? values[last + 1] : before;
     for (Index k = first; k <= last; ++k) {
-      const double part = static_cast<double>(k - first + 1) / static_cast<double>(last - first + 2);
+      const double part =
+          static_cast<double>(k - first + 1) / static_cast<double>(last - first + 2);
       values[k] = before + part * (behind - before);
     }
     i = next;
@@ -77,30 +104,38 @@ std::vector<Index> octaves(Index lines) {
 Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
+  std::map<std::pair<std::string, std::size_t>, std::size_t> groups;
+  const auto group = [&](const ObservedChannel& channel, std::size_t octave) {
+    return groups.try_emplace({channel.sensor, octave}, groups.size()).first->second;
+  };
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     const auto n = static_cast<double>(channel.count);
     if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {
-      bands_.push_back({channel.first, channel.count, kStatedWeight, n + kStatedWeight});
+      bands_.push_back(
+          {channel.first, channel.count, kStatedWeight, n + kStatedWeight, group(channel, 0)});
       continue;
     }
-    VectorXd signal = observations.values.segment(channel.first, channel.count)
-                          .cwiseQuotient(observations.deviations.segment(channel.first,
-                                                                         channel.count));
+    const Index samples = transformed(channel);
+    VectorXd signal = observations.values.segment(channel.first, samples)
+                          .cwiseQuotient(observations.deviations.segment(channel.first, samples));
     bridge(channel.left_out, signal);
     signal.array() -= signal.mean();
     cosine_transform(signal);
     const double truncation = std::pow(channel.numerical_error / channel.floor(), 2);
-    Index end = channel.count;
-    for (const Index first : octaves(channel.count)) {
+    Index end = samples;
+    std::size_t octave = 0;
+    for (const Index first : octaves(samples)) {
       const Index count = end - first;
       const double followed =
           kDiscrepancy * kDiscrepancy * signal.segment(first, count).squaredNorm();
       const auto size = static_cast<double>(count);
-      bands_.push_back({channel.first + first, count, size * truncation + followed, size});
+      bands_.push_back({channel.first + first, count, size * truncation + followed, size,
+                        group(channel, octave++)});
       end = first;
     }
   }
+  groups_ = groups.size();
 }
 
 VectorXd Likelihood::lines(const VectorXd& residuals) const {
@@ -110,9 +145,11 @@ VectorXd Likelihood::lines(const VectorXd& residuals) const {
     const ObservedChannel& channel = channels[c];
     const auto kind = problem_.experiment().runs[channel.run].run.kind;
     if (!runs_[channel.run] || kind != measured::RunKind::time) return;
+    const Index samples = transformed(channel);
     auto part = made.segment(channel.first, channel.count);
     bridge(channel.left_out, part);
-    cosine_transform(part);
+    cosine_transform(part.head(samples));
+    part.tail(channel.count - samples).setZero();
   });
   return made;
 }
@@ -134,6 +171,17 @@ VectorXd Likelihood::weights(const VectorXd& lines) const {
     made.segment(band.first, band.count).setConstant(band.weight / sum);
   }
   return made;
+}
+
+double Likelihood::largest_drop(const VectorXd& simpler, const VectorXd& fuller) const {
+  VectorXd before = VectorXd::Zero(static_cast<Index>(groups_));
+  VectorXd after = before;
+  for (const Band& band : bands_) {
+    const auto group = static_cast<Index>(band.group);
+    before(group) += band.added + simpler.segment(band.first, band.count).squaredNorm();
+    after(group) += band.added + fuller.segment(band.first, band.count).squaredNorm();
+  }
+  return 1.0 - after.cwiseQuotient(before).minCoeff();
 }
 
 }  // namespace flexarm::diagnose

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -13,8 +14,9 @@ namespace flexarm::diagnose {
 ///
 /// The residuals of a channel of a `time` run are transformed to lines by the orthonormal DCT-II,
 /// which a slow change across the record does not spread over all lines as a Fourier transform
-/// does. The lines fall into octaves of frequency; within an octave the noise is white. With S_b
-/// the sum of squares of the n_b lines of a band
+/// does; the last few samples are left out where their number has large prime factors. The lines
+/// fall into octaves of frequency; within an octave the noise is white. With S_b the sum of squares
+/// of the n_b lines of a band
 ///
 ///     -2 ln L = sum_b w_b ln((a_b + S_b)/w_b),
 ///
@@ -25,7 +27,7 @@ namespace flexarm::diagnose {
 class Likelihood {
  public:
   /// The part of a signal, as an amplitude, below which no model is asked to follow it.
-  static constexpr double kDiscrepancy = 1e-3;
+  static constexpr double kDiscrepancy = 3e-3;
   static constexpr double kStatedWeight = 4.0;
 
   /// Of the `runs` of the problem, which must outlive the object.
@@ -45,17 +47,23 @@ class Likelihood {
   /// form that has the same derivatives there.
   Eigen::VectorXd weights(const Eigen::VectorXd& lines) const;
 
+  /// Returns the largest part by which `fuller` lowers what `simpler` leaves, a_b + S_b of an
+  /// octave of a sensor in all runs. Both are lines.
+  double largest_drop(const Eigen::VectorXd& simpler, const Eigen::VectorXd& fuller) const;
+
  private:
   struct Band {
     Eigen::Index first = 0;
     Eigen::Index count = 0;
-    double added = 0.0;   ///< a_b
-    double weight = 0.0;  ///< w_b
+    double added = 0.0;     ///< a_b
+    double weight = 0.0;    ///< w_b
+    std::size_t group = 0;  ///< of the bands of a sensor in that octave, one a run
   };
 
   const Problem& problem_;
   std::vector<bool> runs_;
   std::vector<Band> bands_;
+  std::size_t groups_ = 0;
 };
 
 }  // namespace flexarm::diagnose

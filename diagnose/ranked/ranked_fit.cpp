@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// The difference quotient of a place.
-constexpr double kStep = 1e-4;
+constexpr double kPlaceStep = 1e-4;
 /// The longest step of a place.
 constexpr double kLongestStep = 0.35;
 constexpr double kFirstDamping = 1e-3;
@@ -59,7 +59,7 @@ MatrixXd jacobian_at(const Likelihood& likelihood, const Places& places, const V
     work.go_on();
     const auto i = static_cast<Index>(k);
     VectorXd beside = here;
-    const double step = here(i) < 0.5 ? kStep : -kStep;
+    const double step = here(i) < 0.5 ? kPlaceStep : -kPlaceStep;
     beside(i) += step;
     const auto moved = likelihood.problem().residuals(places.at(beside), likelihood.runs());
     if (moved) jacobian.col(i) = likelihood.lines((*moved - residuals) / step);
@@ -115,8 +115,8 @@ double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorX
   return sum + pivots.array().max(1.0).log().sum();
 }
 
-RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start,
-                     const ReportedWork& work, const RankedFitOptions& options) {
+RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
+                     const RankedFitOptions& options) {
   const Places places(start);
   RankedFit made{.candidate = start};
   VectorXd here = start.coordinates();

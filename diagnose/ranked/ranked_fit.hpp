@@ -13,9 +13,9 @@ namespace flexarm::diagnose {
 /// A candidate at the maximum of its likelihood on some runs.
 struct RankedFit {
   Candidate candidate = {};
-  Eigen::VectorXd residuals = {};  ///< Problem::residuals
-  Eigen::VectorXd lines = {};      ///< Likelihood::lines of these
-  Eigen::MatrixXd jacobian = {};   ///< lines by Candidate::coordinates
+  Eigen::VectorXd residuals = {};                          ///< Problem::residuals
+  Eigen::VectorXd lines = {};                              ///< Likelihood::lines of these
+  Eigen::MatrixXd jacobian = {};                           ///< lines by Candidate::coordinates
   double cost = std::numeric_limits<double>::infinity();   ///< -2 ln L
   double score = std::numeric_limits<double>::infinity();  ///< cost and price
   bool converged = false;
@@ -44,9 +44,9 @@ struct RankedFitOptions {
 };
 
 /// Returns the fit nearest to `start`: iteratively reweighted least squares with the damping of
-/// Levenberg and Marquardt, places from 0 to 1. Not `is_possible` where the start cannot be
+/// [Marquardt1963], places from 0 to 1. Not `is_possible` where the start cannot be
 /// computed. Throws Cancelled where the work is cancelled.
-RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start,
-                     const ReportedWork& work, const RankedFitOptions& options = {});
+RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
+                     const RankedFitOptions& options = {});
 
 }  // namespace flexarm::diagnose

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,10 +16,12 @@ namespace flexarm::diagnose {
 
 namespace {
 
+using Eigen::VectorXd;
 using Labels = std::set<std::string>;
 
 constexpr RankedFitOptions kLook = {.most_steps = 6, .tolerance = 0.5};
 constexpr RankedFitOptions kFit = {};
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 /// One rung of the ladder: a problem with part of the data, or all.
 class Rung {
@@ -39,64 +42,106 @@ class Rung {
     std::ranges::stable_sort(beam, {}, &RankedFit::score);
   }
 
-  /// Adds effects while the best score falls.
-  void grow(std::vector<RankedFit>& beam) {
+  /// Adds effects to the best `width` sets while the best score falls.
+  void grow(std::vector<RankedFit>& beam, std::size_t width) {
+    beam.resize(std::min(beam.size(), width));
     for (bool falls = true; falls;) {
-      std::vector<Candidate> starts;
+      std::vector<Start> starts;
       for (const RankedFit& base : beam) {
-        for (const RankedAddition& one :
-             ranked_additions(likelihood_, base, hypotheses_, options_.looks, work_)) {
-          Candidate with = base.candidate.with(*one.effect, one.values);
-          if (met_.insert(with.labels()).second) starts.push_back(std::move(with));
+        for (Start& one : starts_beside(base, hypotheses_, options_.looks)) {
+          if (met_.insert(one.candidate.labels()).second) starts.push_back(std::move(one));
         }
       }
-      std::vector<RankedFit> grown(starts.size());
-      in_parallel(starts.size(), [&](std::size_t i) { grown[i] = fitted(starts[i], kLook); });
       const double before = beam.front().score;
-      std::ranges::move(grown, std::back_inserter(beam));
+      std::ranges::move(material_fits(starts), std::back_inserter(beam));
       std::ranges::stable_sort(beam, {}, &RankedFit::score);
-      beam.resize(std::min(beam.size(), options_.beam));
+      beam.resize(std::min(beam.size(), width));
       falls = beam.front().score < before;
     }
   }
 
-  /// Drops effects of the best set, and swaps them for others, while that lowers its score.
+  /// Drops effects of the best set and swaps them for others, while that lowers its score, and
+  /// drops those that are not material.
   void improve(RankedFit& best) {
     best = fitted(best.candidate, kFit);
-    while (auto better = best_neighbour(best)) best = *std::move(better);
+    while (auto better = better_neighbour(best)) best = *std::move(better);
   }
 
  private:
+  /// A set to fit, with the lines of the set without its last effect.
+  struct Start {
+    Candidate candidate;
+    VectorXd lines_without;
+  };
+
   RankedFit fitted(const Candidate& start, const RankedFitOptions& options) const {
     return ranked_fit(likelihood_, start, work_, options);
   }
 
-  std::optional<RankedFit> best_neighbour(const RankedFit& best) const {
-    constexpr std::size_t kSwaps = 2;
-    const std::size_t count = best.candidate.effects.size();
-    std::vector<RankedFit> without(count);
-    in_parallel(count, [&](std::size_t i) {
-      without[i] = fitted(best.candidate.without(i), kLook);
-    });
-    std::vector<Candidate> swapped;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!without[i].is_possible()) continue;
-      std::vector<const Hypothesis*> others = hypotheses_;
-      std::erase_if(others, [&](const Hypothesis* one) {
-        return one->label() == best.candidate.effects[i].label();
-      });
-      for (const RankedAddition& one :
-           ranked_additions(likelihood_, without[i], others, kSwaps, work_)) {
-        swapped.push_back(without[i].candidate.with(*one.effect, one.values));
-      }
+  bool is_material(const VectorXd& lines_without, const RankedFit& with) const {
+    return likelihood_.largest_drop(lines_without, with.lines) >= options_.least_drop;
+  }
+
+  std::vector<Start> starts_beside(const RankedFit& base,
+                                   const std::vector<const Hypothesis*>& others,
+                                   std::size_t most) const {
+    std::vector<Start> starts;
+    for (const RankedAddition& one : ranked_additions(likelihood_, base, others, most, work_)) {
+      starts.push_back({base.candidate.with(*one.effect, one.values), base.lines});
     }
-    std::vector<RankedFit> tried(swapped.size());
-    in_parallel(swapped.size(), [&](std::size_t i) { tried[i] = fitted(swapped[i], kLook); });
-    std::ranges::move(without, std::back_inserter(tried));
+    return starts;
+  }
+
+  /// Fits of a few steps, those whose last effect is material.
+  std::vector<RankedFit> material_fits(const std::vector<Start>& starts) const {
+    std::vector<RankedFit> fits(starts.size());
+    in_parallel(starts.size(),
+                [&](std::size_t i) { fits[i] = fitted(starts[i].candidate, kLook); });
+    std::vector<RankedFit> material;
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      const bool is_kept = fits[i].is_possible() && is_material(starts[i].lines_without, fits[i]);
+      if (is_kept) material.push_back(std::move(fits[i]));
+    }
+    return material;
+  }
+
+  /// The best set with one effect less or another in its place; empty if none is better.
+  std::optional<RankedFit> better_neighbour(const RankedFit& best) const {
+    const std::vector<Hypothesis>& effects = best.candidate.effects;
+    std::vector<RankedFit> tried(effects.size());
+    in_parallel(effects.size(),
+                [&](std::size_t i) { tried[i] = fitted(best.candidate.without(i), kLook); });
+    for (RankedFit& one : tried) {
+      if (one.is_possible() && !is_material(one.lines, best)) return std::move(one);
+    }
+    std::vector<Start> swaps;
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      if (!tried[i].is_possible()) continue;
+      for (RankedFit& limit : material_fits(starts_beside(tried[i], limits_of(effects[i]), kAll))) {
+        if (!is_material(limit.lines, best)) return std::move(limit);
+      }
+      std::ranges::move(starts_beside(tried[i], all_but(effects[i]), options_.swaps),
+                        std::back_inserter(swaps));
+    }
+    std::ranges::move(material_fits(swaps), std::back_inserter(tried));
     const auto least = std::ranges::min_element(tried, {}, &RankedFit::score);
     if (least == tried.end() || !(least->score < best.score)) return std::nullopt;
     RankedFit better = fitted(least->candidate, kFit);
     return better.score < best.score ? std::optional(std::move(better)) : std::nullopt;
+  }
+
+  std::vector<const Hypothesis*> limits_of(const Hypothesis& effect) const {
+    std::vector<const Hypothesis*> limits;
+    std::ranges::copy_if(hypotheses_, std::back_inserter(limits),
+                         [&](const Hypothesis* one) { return effect.contains(one->effect); });
+    return limits;
+  }
+
+  std::vector<const Hypothesis*> all_but(const Hypothesis& effect) const {
+    std::vector<const Hypothesis*> others;
+    std::ranges::copy_if(hypotheses_, std::back_inserter(others),
+                         [&](const Hypothesis* one) { return one->label() != effect.label(); });
+    return others;
   }
 
   Likelihood likelihood_;
@@ -125,9 +170,10 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
   RankedSets made;
   std::vector<RankedFit> beam(1);
   beam.front().candidate = problem.as_filed();
+  std::size_t width = options.beam;
   const auto climb = [&](Rung& rung) {
     rung.refit(beam);
-    rung.grow(beam);
+    rung.grow(beam, std::exchange(width, 1));
     rung.improve(beam.front());
   };
   try {
@@ -135,9 +181,8 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
-      const Problem part(
-          std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
-          {.flexible_modes = problem.predictor().flexible_modes()});
+      const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
+                         {.flexible_modes = problem.predictor().flexible_modes()});
       Rung rung(part, hypotheses, options, work);
       climb(rung);
     }

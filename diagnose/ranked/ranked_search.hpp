@@ -11,8 +11,12 @@ namespace flexarm::diagnose {
 
 /// How far the ranked search goes.
 struct RankedOptions {
-  std::size_t beam = 3;   ///< sets that grow at a time
+  std::size_t beam = 3;   ///< sets that grow at a time on the first rung; on others one does
   std::size_t looks = 6;  ///< effects fitted beside each, the best by the score test
+  std::size_t swaps = 2;  ///< effects fitted in the place of each
+  /// An effect is material where it lowers the mean square of what is left in some octave of some
+  /// sensor by this part or more: an error by a factor of 1.15.
+  double least_drop = 0.25;
   /// Samples of each run on the rungs below all data.
   std::array<std::size_t, 3> rungs = {400, 1600, 6400};
 };
@@ -30,7 +34,9 @@ struct RankedSets {
 /// - a beam of sets grows by one effect at a time, those that the score test ranks first, while the
 ///   best score falls;
 /// - the best set is improved by dropping an effect, and by swapping one for another, while that
-///   lowers the score.
+///   lowers the score;
+/// - an effect that is not material (RankedOptions::least_drop) is dropped, and one that is not
+///   material beside its limit yields to it.
 ///
 /// `problem` and `hypotheses` must outlive the result. After the deadline of the work: what was
 /// fitted to all data by then. Throws Cancelled where the work is cancelled otherwise.

@@ -35,9 +35,8 @@ RankedFit held_out_best(const Likelihood& likelihood, RankedFit best, const Repo
   while (!best.candidate.effects.empty()) {
     const double with = held_out_cost(held_out, best.candidate);
     std::vector<RankedFit> without = without_each(likelihood, best, work);
-    const auto least = std::ranges::min_element(without, {}, [&](const RankedFit& one) {
-      return held_out_cost(held_out, one.candidate);
-    });
+    const auto least = std::ranges::min_element(
+        without, {}, [&](const RankedFit& one) { return held_out_cost(held_out, one.candidate); });
     if (!(held_out_cost(held_out, least->candidate) < with)) break;
     best = std::move(*least);
   }
@@ -74,8 +73,8 @@ PredictedSelection select_by_rank(const SelectionTask& task, const Problem& prob
   const Likelihood likelihood(problem, problem.estimation_runs());
   if (has_validation(problem)) best = held_out_best(likelihood, std::move(best), work);
   selection.nothing = explained(problem, problem.as_filed());
-  selection.chosen = best.candidate.effects.empty() ? selection.nothing
-                                                    : explained(problem, best.candidate);
+  selection.chosen =
+      best.candidate.effects.empty() ? selection.nothing : explained(problem, best.candidate);
   selection.chosen.fit.converged = best.converged;
   keep(problem, best.candidate, selection);
   for (const RankedFit& one : without_each(likelihood, best, work)) {

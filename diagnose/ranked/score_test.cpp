@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// A change of less than this part of the weighted lines is rounding.
-constexpr double kLeastChange = 1e-6;
+constexpr double kRounding = 1e-6;
 
 /// The score test of effects beside one fit.
 class ScoreTest {
@@ -30,13 +30,13 @@ class ScoreTest {
   /// null where that changes nothing, or has no arm.
   RankedAddition at(const Hypothesis& effect, const StartPlaces& places) const {
     const std::vector<double> values = effects::values_at(effect.parameters, places);
-    const auto with = likelihood_.problem().residuals(base_.candidate.with(effect, values),
-                                                      likelihood_.runs());
+    const auto with =
+        likelihood_.problem().residuals(base_.candidate.with(effect, values), likelihood_.runs());
     if (!with) return {};
     const VectorXd change =
         refitted_(roots_.cwiseProduct(likelihood_.lines(*with - base_.residuals)));
     const double squares = change.squaredNorm();
-    if (!(squares > kLeastChange * kLeastChange * left_.squaredNorm())) return {};
+    if (!(squares > kRounding * kRounding * left_.squaredNorm())) return {};
     const auto [least, most] = sizes_of(effect, places);
     const double size = std::clamp(-change.dot(left_) / squares, least, most);
     const VectorXd predicted = (left_ + size * change).cwiseQuotient(roots_.cwiseMax(1e-150));

@@ -29,8 +29,9 @@ constexpr double kLeastChange = 1e-6;
 
 /// Of a law of hub torque with several parameters: the best that a regression on the measured
 /// motion finds beside the base. A few values would miss its period.
-std::optional<StartPlaces> scanned_law(const Problem& problem, const Fit& base, const Hypothesis& effect,
-                                  const SelectionOptions& options, const ReportedWork& work) {
+std::optional<StartPlaces> scanned_law(const Problem& problem, const Fit& base,
+                                       const Hypothesis& effect, const SelectionOptions& options,
+                                       const ReportedWork& work) {
   if (effect.parameters.size() < 2) return std::nullopt;
   const auto law = scan_hub_law(
       problem, base.candidate.with(effect, effect.middle()),

@@ -23,7 +23,7 @@ namespace {
 /// the range.
 constexpr std::size_t kSlopesInRun = 200;
 
-struct Interval {
+struct ValueRange {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
@@ -36,8 +36,8 @@ struct Interval {
 };
 
 struct HubRanges {
-  Interval angle_rad;
-  Interval velocity_rad_per_s;
+  ValueRange angle_rad;
+  ValueRange velocity_rad_per_s;
 
   void add_angle(const std::vector<double>& values, double period_s) {
     for (const double value : values) angle_rad.add(value);
@@ -94,7 +94,7 @@ Hypothesis probe(const std::string& name, const arm::HubTorqueTable& table, doub
                           .neutral = 0.0}}};
 }
 
-std::vector<double> places(const Interval& range) {
+std::vector<double> places(const ValueRange& range) {
   std::vector<double> made;
   for (int i = 0; i < kHats; ++i) {
     made.push_back(std::lerp(range.least, range.most, static_cast<double>(i) / (kHats - 1)));
@@ -109,7 +109,7 @@ std::vector<Hypothesis> hub_torque_probes(const Experiment& experiment) {
   std::vector<Hypothesis> made;
   if (!(torque_N_m > 0.0)) return made;
   const HubRanges ranges = hub_ranges(experiment);
-  const auto add_hats = [&](const Interval& range, auto axis, const char* what) {
+  const auto add_hats = [&](const ValueRange& range, auto axis, const char* what) {
     if (!range.is_wide()) return;
     for (std::size_t i = 0; i < kHats; ++i) {
       arm::HubTorqueTable table;
@@ -122,7 +122,7 @@ std::vector<Hypothesis> hub_torque_probes(const Experiment& experiment) {
   };
   add_hats(ranges.angle_rad, &arm::HubTorqueTable::angle_rad, "angle");
   add_hats(ranges.velocity_rad_per_s, &arm::HubTorqueTable::velocity_rad_per_s, "velocity");
-  if (const Interval& speed = ranges.velocity_rad_per_s; speed.is_wide()) {
+  if (const ValueRange& speed = ranges.velocity_rad_per_s; speed.is_wide()) {
     const double most = std::max(-speed.least, speed.most);
     const arm::HubTorqueTable friction{.velocity_rad_per_s = {-most, 0.0, 0.0, most},
                                        .torque_N_m = {1.0, 1.0, -1.0, -1.0}};

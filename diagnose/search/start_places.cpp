@@ -20,7 +20,8 @@ std::vector<double> first_places(const SearchedParameter& parameter) {
   if (!neutral) return kSpreadPlaces;
   if (parameter.spacing == effects::Spacing::about_zero) {
     return {parameter.coordinate(0.75 * parameter.lowest),
-            *neutral + kSpreadPlaces.front() * (1.0 - *neutral), *neutral + kMiddle * (1.0 - *neutral)};
+            *neutral + kSpreadPlaces.front() * (1.0 - *neutral),
+            *neutral + kMiddle * (1.0 - *neutral)};
   }
   if (*neutral > 0.0 && *neutral < 1.0) {
     std::vector<double> places;

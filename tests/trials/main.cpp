@@ -43,7 +43,7 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--effects", choice.effects,
                  "Effects to simulate: names, several at once joined by +; or single (each of the "
                  "library), one (drawn by chance), "
-                 "pairs, triples, none, outside, outside-pairs")
+                 "pairs, triples, none, outside, outside-pairs, rig (five to eight at once)")
       ->delimiter(',');
   app.add_option("--strength", choice.strengths,
                  "faint, weak, middle, strong; default: all except faint")

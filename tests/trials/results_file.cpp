@@ -41,7 +41,7 @@ std::vector<Claim> parse_claims(const std::string& claimed, const std::string& r
 /// Cells of another trial than a rig's.
 constexpr std::string_view kNoRig = "-";
 
-std::string rig_cells(const std::optional<RigScore>& rig) {
+std::string cells_of_rig(const std::optional<RigScore>& rig) {
   if (!rig) return fmt::format("{0},{0},{0}", kNoRig);
   return fmt::format("{},{},{:.4g}", rig->leading_named, rig->wrong_names, rig->error_over_floor);
 }
@@ -130,8 +130,8 @@ void append_result(const TrialResult& result, const std::filesystem::path& file)
                 result.class_size, result.parameters, result.recovered, result.covered,
                 result.before, result.after, result.validation_after, result.validation_floor,
                 result.time_s, result.processor_s, result.dirt, to_string(result.dirt_answer),
-                to_string(result.port_answer), fmt::join(result.ports, ";"), rig_cells(result.rig),
-                result.values, result.folder);
+                to_string(result.port_answer), fmt::join(result.ports, ";"),
+                cells_of_rig(result.rig), result.values, result.folder);
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace flexarm::trials {
@@ -27,19 +28,35 @@ constexpr std::array kSometimes = {"structural_damping", "torque_gain",     "tor
                                    "sensor_gain"};
 constexpr std::size_t kMostOthers = 4;
 
-/// Limits of numbers of the arm file over what they are.
-constexpr double kInertiaLeast = 0.7;
-constexpr double kInertiaMost = 1.4;
-constexpr double kRigidityLeast = 0.85;
-constexpr double kRigidityMost = 1.15;
+/// Factors of a laboratory.
+struct FactorRange {
+  std::string_view cause;
+  double least;
+  double most;
+};
+constexpr FactorRange kFactors[] = {{"hub_inertia", 0.7, 1.4},
+                                    {"flexural_rigidity", 0.85, 1.15},
+                                    {"torque_gain", 0.7, 1.4},
+                                    {"sensor_gain", 0.7, 1.4}};
+
+/// The largest size of a cause in a laboratory, as Cause::largest.
+struct LargestSize {
+  std::string_view cause;
+  double size;
+};
+constexpr LargestSize kLargest[] = {
+    {"coulomb_friction", 0.5}, {"structural_damping", 0.015},  // damping ratios of about 0.1
+    {"torque_bias", 0.3},      {"actuator_lag", 0.02},
+    {"root_compliance", 0.3},  {"sensor_delay", 0.06}};
 
 /// The cause with the largest size that it has in a laboratory.
 Cause in_laboratory(Cause cause, double sign) {
-  const auto limit = [&](double least, double most) {
-    cause.largest = sign > 0.0 ? std::log(most) : -std::log(least);
-  };
-  if (cause.name == "hub_inertia") limit(kInertiaLeast, kInertiaMost);
-  if (cause.name == "flexural_rigidity") limit(kRigidityLeast, kRigidityMost);
+  for (const auto& [name, least, most] : kFactors) {
+    if (cause.name == name) cause.largest = sign > 0.0 ? std::log(most) : -std::log(least);
+  }
+  for (const auto& [name, size] : kLargest) {
+    if (cause.name == name) cause.largest = size;
+  }
   return cause;
 }
 
@@ -51,16 +68,16 @@ double between_ratios(double lowest, double highest, Random& random) {
 std::vector<arm::Sensor> draw_sensors(Random& random) {
   const std::array hub = {arm::SensorKind::hub_angle, arm::SensorKind::hub_velocity};
   const std::array<arm::Sensor, 3> beam = {
-      {{arm::SensorKind::tip_acceleration, 0.0}, {arm::SensorKind::tip_displacement, 0.0}, kGauge}};
+      {{arm::SensorKind::tip_acceleration, 0.0}, {arm::SensorKind::tip_deflection, 0.0}, kGauge}};
   const arm::Sensor of_hub{hub.at(random.below(hub.size())), 0.0};
   return {of_hub, beam.at(random.below(beam.size()))};
 }
 
 std::vector<PlannedRun> rig_runs(const TrialArm& of, Random& random) {
   const double low = of.low_torque_N_m;
-  return {{"random-high", measured::Purpose::estimation, 0.0, random_torque(4.0 * low, random)},
+  return {{"random-high", measured::Purpose::estimation, 0.0, random_torque(6.0 * low, random)},
           {"bang-bang", measured::Purpose::estimation, 0.0, bang_bang_torque(2.0 * low)},
-          {"multisine", measured::Purpose::validation, 0.0, multisine_torque(2.4 * low, random)}};
+          {"multisine", measured::Purpose::validation, 0.0, multisine_torque(6.0 * low, random)}};
 }
 
 /// The encoder of runs whose hub angles range so far; 0 where none is read.
@@ -79,7 +96,7 @@ double draw_counts_per_turn(const std::vector<SimulatedRun>& runs,
 }
 
 /// Hub angles in whole counts.
-void count(measured::TimeRecord& record, double counts_per_turn) {
+void put_in_counts(measured::TimeRecord& record, double counts_per_turn) {
   const double count_rad = 2.0 * std::numbers::pi / counts_per_turn;
   for (measured::Channel& channel : record.channels) {
     if (is_analogue(channel)) continue;
@@ -154,7 +171,7 @@ Truth write_rig_case(const TrialKey& key, const fs::path& folder) {
   for (std::size_t r = 0; r < made.runs.size(); ++r) {
     const PlannedRun& run = made.runs[r];
     measured::TimeRecord record = noisy_record(simulated[r], made.sensors, key.noise, random);
-    if (rig.counts_per_turn > 0.0) count(record, rig.counts_per_turn);
+    if (rig.counts_per_turn > 0.0) put_in_counts(record, rig.counts_per_turn);
     if (run.purpose == measured::Purpose::validation) {
       rig.validation_floor = floor_of(record, simulated[r]);
     }

@@ -10,12 +10,12 @@ namespace flexarm::trials {
 
 /// Noise of a rig's recordings, over the deviation of the signal.
 inline constexpr double kRigNoise = 0.01;
-/// NRMSE that each cause of a rig makes by itself, drawn in equal ratios. A cause whose largest
-/// size in a laboratory makes less has that size.
+/// NRMSE that each cause of a rig makes by itself, each ratio as likely. A cause whose largest size
+/// in a laboratory makes less has that size.
 inline constexpr double kRigErrorLeast = 0.02;
 inline constexpr double kRigErrorMost = 0.3;
-/// Counts of an encoder a turn, drawn in equal ratios, so that in each run the hub angle ranges
-/// over kEncoderSignal_counts or more.
+/// Counts of an encoder a turn, each ratio as likely; in each run the hub angle ranges over
+/// kEncoderSignal_counts or more.
 inline constexpr double kEncoderLeast = 1000.0;
 inline constexpr double kEncoderMost = 10000.0;
 inline constexpr double kEncoderSignal_counts = 50.0;

@@ -62,7 +62,7 @@ TEST(RigList, HidesFiveToEightCausesEachOnce) {
 }
 
 TEST(RigDraw, SizesAreThoseOfLaboratories) {
-  for (const TrialKey& key : rig_keys(4)) {
+  for (const TrialKey& key : rig_keys(3)) {
     const RigDraw made = draw_rig(key);
     ASSERT_EQ(made.world.hidden.size(), key.hidden.size());
     const double inertia = made.world.find("hub_inertia")->parameters.at("factor");
@@ -78,13 +78,13 @@ TEST(RigDraw, SizesAreThoseOfLaboratories) {
 }
 
 TEST(RigDraw, HasAHubSensorAndOneOfTheBeamOnWhichSensorCausesAct) {
-  for (const TrialKey& key : rig_keys(4)) {
+  for (const TrialKey& key : rig_keys(2)) {
     const RigDraw made = draw_rig(key);
     ASSERT_EQ(made.sensors.size(), 2U);
     EXPECT_THAT(made.sensors[0].kind,
                 AnyOf(arm::SensorKind::hub_angle, arm::SensorKind::hub_velocity));
     EXPECT_THAT(made.sensors[1].kind,
-                AnyOf(arm::SensorKind::tip_acceleration, arm::SensorKind::tip_displacement,
+                AnyOf(arm::SensorKind::tip_acceleration, arm::SensorKind::tip_deflection,
                       arm::SensorKind::strain));
     for (const HiddenCause& one : made.world.hidden) {
       if (one.sensor.empty()) continue;

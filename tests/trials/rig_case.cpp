@@ -73,6 +73,16 @@ std::vector<arm::Sensor> draw_sensors(Random& random) {
   return {of_hub, beam.at(random.below(beam.size()))};
 }
 
+/// The sensor that a cause acts on, if it acts on one. A hub angle moves too slowly for a delay to
+/// show.
+std::string draw_sensor_of(const std::string& cause, const std::vector<arm::Sensor>& sensors,
+                           Random& random) {
+  const std::size_t drawn = random.below(sensors.size());
+  const bool is_slow = sensors[drawn].kind == arm::SensorKind::hub_angle;
+  const bool shows = !(is_slow && cause == "sensor_delay");
+  return arm::to_string(shows ? sensors[drawn] : sensors.back());
+}
+
 std::vector<PlannedRun> rig_runs(const TrialArm& of, Random& random) {
   const double low = of.low_torque_N_m;
   return {{"random-high", measured::Purpose::estimation, 0.0, random_torque(6.0 * low, random)},
@@ -136,11 +146,12 @@ RigDraw draw_rig(const TrialKey& key) {
   const std::size_t drawn = random.below(trial_arms().size());
   const TrialArm& of = key.arm.empty() ? trial_arms()[drawn] : find_trial_arm(key.arm);
   RigDraw made{of, draw_sensors(random), rig_runs(of, random), World{of.arm}, {}, {}};
+  const double most = key.size.value_or(kRigErrorMost);
   for (const std::string& name : key.hidden) {
     Chance chance = draw_chance(random);
-    chance.sensor = arm::to_string(made.sensors[random.below(made.sensors.size())]);
+    chance.sensor = draw_sensor_of(name, made.sensors, random);
     const Cause cause = in_laboratory(find_cause(name), chance.sign);
-    const double error = between_ratios(kRigErrorLeast, kRigErrorMost, random);
+    const double error = between_ratios(kRigErrorLeast, most, random);
     const FoundSize found =
         find_size(of, measured::RunKind::time, made.runs, cause, chance, error, made.sensors);
     made.world = with_hidden(made.world, of, cause, found.size, chance);

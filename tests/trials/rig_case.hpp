@@ -10,8 +10,8 @@ namespace flexarm::trials {
 
 /// Noise of a rig's recordings, over the deviation of the signal.
 inline constexpr double kRigNoise = 0.01;
-/// NRMSE that each cause of a rig makes by itself, each ratio as likely. A cause whose largest size
-/// in a laboratory makes less has that size.
+/// NRMSE that each cause of a rig makes by itself, each ratio as likely; TrialKey::size is the most
+/// where it is given. A cause whose largest size in a laboratory makes less has that size.
 inline constexpr double kRigErrorLeast = 0.02;
 inline constexpr double kRigErrorMost = 0.3;
 /// Counts of an encoder a turn, each ratio as likely; in each run the hub angle ranges over

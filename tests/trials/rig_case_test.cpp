@@ -44,6 +44,13 @@ TEST(RigList, HasEachNumberOnceInTimeWithoutDirt) {
   EXPECT_THAT(ids, testing::ElementsAre("time-rig-1-1@5", "time-rig-1-2@5", "time-rig-1-3@5"));
 }
 
+TEST(RigList, AGivenSizeIsTheLargestErrorOfACause) {
+  const auto keys = list_trials({.effects = {"rig"}, .size = 1.0});
+  ASSERT_EQ(keys.size(), 1U);
+  EXPECT_EQ(keys.front().id(), "time-rig-1-1-1@1");
+  EXPECT_EQ(keys.front().hidden, rig_keys(1).front().hidden);
+}
+
 TEST(RigList, HidesFiveToEightCausesEachOnce) {
   std::set<std::size_t> counts;
   std::set<std::string> drawn;

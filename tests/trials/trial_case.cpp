@@ -114,7 +114,10 @@ std::string TrialKey::name() const {
 
 std::string TrialKey::clean_name() const {
   const std::string where = arm.empty() ? "" : arm + "-";
-  if (rig) return fmt::format("time-rig-{}{:g}-{}", where, 100.0 * noise, number);
+  if (rig) {
+    const std::string most = size ? strength_name() + "-" : "";
+    return fmt::format("time-rig-{}{}{:g}-{}", where, most, 100.0 * noise, number);
+  }
   const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
   const std::string how_much = hidden.empty() ? "" : strength_name() + "-";
   return fmt::format("{}-{}-{}{}{:g}-{}", measured::to_string(kind), causes, where, how_much,
@@ -122,7 +125,7 @@ std::string TrialKey::clean_name() const {
 }
 
 std::string TrialKey::strength_name() const {
-  if (rig) return "rig";
+  if (rig && !size) return "rig";
   return size ? fmt::format("{:g}", *size) : std::string(to_string(strength));
 }
 

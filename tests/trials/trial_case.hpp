@@ -24,9 +24,10 @@ struct TrialKey {
   double noise = 0.005;  ///< standard deviation over that of the signal
   int number = 1;        ///< of its cell
   std::uint64_t seed = 1;
-  std::string arm = {};             ///< empty: by chance
-  std::optional<double> size = {};  ///< of each cause; else that of the strength
-  std::string dirt = {};            ///< of time runs (dirt.hpp); empty: none
+  std::string arm = {};  ///< empty: by chance
+  /// Size of each cause; else that of the strength. Of a rig the largest NRMSE that one makes.
+  std::optional<double> size = {};
+  std::string dirt = {};  ///< of time runs (dirt.hpp); empty: none
   double dirt_size = 1.0;
   bool rig = false;  ///< hidden at sizes of laboratories, by chance (rig_case.hpp)
 

@@ -23,6 +23,7 @@ Entry actuator_lag() {
                  Spacing::from_zero}};
       },
       .prior = Likely::common,
+      .family = Family::timing,
       .speaks_for =
           "phase lag and attenuation increasing with frequency in all sensors; poles and zeros "
           "unchanged",

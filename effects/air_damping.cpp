@@ -52,6 +52,7 @@ Entry air_damping() {
             scales.beam.linear_density_kg_per_m * arm::omega_scale_rad_per_s(scales.beam);
         return {{"coefficient", 1e-3 * natural, 6.0 * natural, Spacing::from_zero}};
       },
+      .family = Family::beam_dissipation,
       .speaks_for = "damping ratios of poles and zeros inversely proportional to natural frequency",
       .refuted_by = "damping ratios that increase with natural frequency"};
 }

@@ -46,6 +46,7 @@ Entry attached_mass() {
           },
           .contains = {"payload_mass"},
           .prior = Likely::rare,
+          .family = Family::beam_mass,
           .speaks_for =
               "poles and zeros lowered by different ratios; a mode with a node at the mass "
               "unchanged; tip-acceleration zeros shifted",

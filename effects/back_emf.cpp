@@ -25,6 +25,7 @@ Entry back_emf() {
             return {{"constant", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
           },
           .same_as = {"hub_viscous_friction"},
+          .family = Family::viscous_loss,
           .speaks_for =
               "residual hub torque proportional to hub velocity where the torque is commanded as a "
               "voltage",

@@ -26,6 +26,7 @@ Entry coulomb_friction() {
                  Spacing::from_zero}};
       },
       .prior = Likely::common,
+      .family = Family::dry_friction,
       .speaks_for =
           "residual hub torque depends on the sign of the hub velocity; apparent damping decreases "
           "with amplitude",

@@ -58,6 +58,7 @@ Entry disturbance_torque() {
                 {"phase", 0.0, kTurn_rad, Spacing::linear, true}};
       },
       .prior = Likely::rare,
+      .family = Family::disturbance,
       .speaks_for = "residual hub torque periodic in time, also where the arm rests",
       .refuted_by = "a period that depends on the motion of the hub, or another phase in each run"};
 }

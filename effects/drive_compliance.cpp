@@ -52,6 +52,7 @@ Entry drive_compliance() {
       .applies = [](const Scales& scales) { return scales.arm.hub.inertia_kg_m2 > 0.0; },
       // As rotor_share nears 1, on a hub without radius.
       .contains = {"root_compliance", "root_damping"},
+      .family = Family::root,
       .speaks_for =
           "one pole more than the beam has, and with it one zero of the hub angle; above it the "
           "hub sensors show the rotor alone; unchanged zeros of the tip and the gauges",

@@ -48,6 +48,7 @@ Entry friction_asymmetry() {
                  .spacing = Spacing::linear,
                  .neutral = 0.0}};
       },
+      .family = Family::viscous_loss,
       .speaks_for =
           "residual hub torque proportional to the size of the hub velocity, of the same sign in "
           "both directions",

@@ -58,6 +58,7 @@ Entry gauge_position() {
                 return scales.sensor && scales.sensor->kind == arm::SensorKind::strain;
               },
           .prior = Likely::rare,
+          .family = Family::sensor,
           .speaks_for = "zeros of one strain gauge shifted; poles and the other sensors unchanged",
           .refuted_by =
               "an error of that gauge in the same ratio at all frequencies (that is a sensor "

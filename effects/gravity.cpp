@@ -26,6 +26,7 @@ Entry gravity() {
                      .spacing = Spacing::linear,
                      .neutral = 0.0}};
           },
+          .family = Family::constant_torque,
           .speaks_for =
               "restoring torque towards one hub angle; squared pole frequencies all increased by "
               "nearly the same amount",

@@ -29,6 +29,7 @@ Entry hub_hardening_spring() {
             return {{"coefficient", 1e-4 * bending, 1e3 * bending, Spacing::from_zero}};
           },
           .prior = Likely::rare,
+          .family = Family::hub_spring,
           .speaks_for =
               "restoring residual hub torque that grows with the cube of the hub angle; frequency "
               "of slow motion rises with amplitude",

@@ -69,6 +69,7 @@ Entry hub_hysteresis() {
           // At infinite stiffness; and at infinite torque.
           .contains = {"coulomb_friction", "hub_spring"},
           .prior = Likely::rare,
+          .family = Family::dry_friction,
           .speaks_for =
               "residual hub torque that reverses over an angle, not at once, where the hub "
               "velocity changes its sign",

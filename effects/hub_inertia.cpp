@@ -20,6 +20,7 @@ Entry hub_inertia() {
         return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
       },
       .prior = Likely::common,
+      .family = Family::hub_inertia,
       .speaks_for =
           "poles shifted; hub-angle zeros (the poles with the hub locked) unchanged",
       .refuted_by = "shifted hub-angle zeros"};

@@ -22,6 +22,7 @@ Entry hub_radius() {
         const double length_m = scales.beam.length_m;
         return {{"radius", 1e-3 * length_m, 0.5 * length_m, Spacing::from_zero}};
       },
+      .family = Family::hub_inertia,
       .speaks_for =
           "larger rigid-body inertia, shifted poles, unchanged hub-angle zeros",
       .refuted_by = "shifted hub-angle zeros"};

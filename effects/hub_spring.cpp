@@ -21,6 +21,7 @@ Entry hub_spring() {
             const double bending = scales.bending_stiffness_N_m_per_rad();
             return {{"stiffness", 1e-4 * bending, 10.0 * bending, Spacing::from_zero}};
           },
+          .family = Family::hub_spring,
           .speaks_for =
               "the hub returns to its initial angle; residual hub torque proportional to hub angle",
           .refuted_by = "a hub that does not return"};

@@ -25,6 +25,7 @@ Entry hub_viscous_friction() {
             return {{"coefficient", 1e-3 * natural, 3.0 * natural, Spacing::from_zero}};
           },
           .prior = Likely::common,
+          .family = Family::viscous_loss,
           .speaks_for =
               "residual hub torque proportional to hub velocity, with the same coefficient at "
               "every amplitude",

@@ -41,6 +41,7 @@ Entry local_stiffness_loss() {
           },
           .contains = {"root_compliance"},
           .prior = Likely::rare,
+          .family = Family::beam_stiffness,
           .speaks_for =
               "poles and zeros lowered by different ratios; a mode without curvature at the crack "
               "unchanged",

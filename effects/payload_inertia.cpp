@@ -22,6 +22,7 @@ Entry payload_inertia() {
                 scales.beam_mass_kg() * scales.beam.length_m * scales.beam.length_m;
             return {{"inertia", 1e-5 * beam_kg_m2, 0.3 * beam_kg_m2, Spacing::from_zero}};
           },
+          .family = Family::payload_inertia,
           .speaks_for = "tip-acceleration zeros shifted, most at higher modes",
           .refuted_by = "unchanged tip-acceleration zeros"};
 }

@@ -22,6 +22,7 @@ Entry payload_mass() {
             return {{"mass", 1e-3 * beam_kg, 4.0 * beam_kg, Spacing::from_zero}};
           },
           .prior = Likely::common,
+          .family = Family::payload_inertia,
           .speaks_for = "hub-angle zeros shifted, tip-acceleration zeros unchanged",
           .refuted_by = "shifted tip-acceleration zeros"};
 }

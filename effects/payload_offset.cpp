@@ -26,6 +26,7 @@ Entry payload_offset() {
                      .neutral = 0.0}};
           },
           .applies = [](const Scales& scales) { return scales.has_payload_mass; },
+          .family = Family::payload_inertia,
           .speaks_for = "residuals increase with payload and vanish without payload",
           .refuted_by = "excess residual without payload"};
 }

@@ -59,6 +59,7 @@ Entry quadratic_drag() {
             return {{"coefficient", 1e-3 * natural, 60.0 * natural, Spacing::from_zero}};
           },
           .prior = Likely::rare,
+          .family = Family::beam_dissipation,
           .speaks_for = "apparent damping increases with amplitude",
           .refuted_by = "apparent damping independent of amplitude"};
 }

@@ -17,6 +17,7 @@ Entry root_compliance() {
             return {searched_stiffness(scales)};
           },
           .prior = Likely::common,
+          .family = Family::root,
           .speaks_for =
               "lower poles and hub-angle zeros; phase lag of root strain behind the hub angle",
           .refuted_by = "unchanged hub-angle zeros"};

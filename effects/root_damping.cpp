@@ -54,6 +54,7 @@ Entry root_damping() {
         return {searched_stiffness(scales), searched_retardation_time(scales)};
       },
       .contains = {"root_compliance"},
+      .family = Family::root,
       .speaks_for =
           "lower poles and hub-angle zeros, with damping ratios in proportion to their shift",
       .refuted_by =

@@ -27,6 +27,7 @@ Entry sensor_delay() {
                  Spacing::from_zero}};
       },
       .prior = Likely::common,
+      .family = Family::timing,
       .speaks_for =
           "phase lag proportional to frequency in one sensor only; its magnitude unchanged",
       .refuted_by =

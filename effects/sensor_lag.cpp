@@ -25,6 +25,7 @@ Entry sensor_lag() {
                      1000.0 * scales.shortest_time_s, Spacing::from_zero}};
           },
           .prior = Likely::common,
+          .family = Family::timing,
           .speaks_for = "phase lag and magnitude roll-off in one sensor only",
           .refuted_by = "the same phase lag in other sensors"};
 }

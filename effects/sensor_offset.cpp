@@ -28,6 +28,7 @@ Entry sensor_offset() {
           },
           .applies = [](const Scales& scales) { return scales.reading_rms > 0.0; },
           .prior = Likely::common,
+          .family = Family::sensor,
           .speaks_for = "a constant error of one sensor, the same in all runs",
           .refuted_by = "an error that grows with time or is absent while the arm rests"};
 }

@@ -76,6 +76,7 @@ Entry stribeck_friction() {
                     {"velocity", 3e-3 * speed, 3.0 * speed}};
           },
           .contains = {"coulomb_friction"},
+          .family = Family::dry_friction,
           .speaks_for =
               "residual hub torque depends on the sign of the hub velocity and is largest near "
               "zero velocity",

@@ -24,6 +24,7 @@ Entry structural_damping() {
             return {{"time", 1e-3 / scale_rad_per_s, 2.0 / scale_rad_per_s, Spacing::from_zero}};
           },
           .prior = Likely::common,
+          .family = Family::beam_dissipation,
           .speaks_for = "damping ratios proportional to natural frequency",
           .refuted_by = "damping ratios that decrease with natural frequency"};
 }

@@ -41,6 +41,7 @@ Entry tilt() {
       },
       // Over a small part of a turn.
       .contains = {"hub_spring", "torque_bias"},
+      .family = Family::constant_torque,
       .speaks_for = "residual hub torque of one sine per revolution of the hub",
       .refuted_by = "several periods of the residual hub torque per revolution (that is ripple)"};
 }

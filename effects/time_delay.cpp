@@ -25,6 +25,7 @@ Entry time_delay() {
                      Spacing::about_zero}};
           },
           .prior = Likely::common,
+          .family = Family::timing,
           .speaks_for = "phase lag proportional to frequency; poles, zeros and magnitude unchanged",
           .refuted_by = "magnitude roll-off with frequency (that is a lag)"};
 }

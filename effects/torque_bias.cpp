@@ -24,6 +24,7 @@ Entry torque_bias() {
                  .neutral = 0.0}};
       },
       .prior = Likely::common,
+      .family = Family::constant_torque,
       .speaks_for = "constant residual hub torque; the hub accelerates in one direction",
       .refuted_by = "no motion at zero commanded torque"};
 }

@@ -29,6 +29,7 @@ Entry torque_dead_zone() {
         return {{"width", 1e-3 * scales.torque_peak_N_m, 0.8 * scales.torque_peak_N_m,
                  Spacing::from_zero}};
       },
+      .family = Family::dry_friction,
       .speaks_for = "gain increases with torque amplitude; largest NRMSE in runs of low torque",
       .refuted_by = "gain independent of amplitude"};
 }

@@ -64,6 +64,7 @@ Entry torque_ripple() {
           // Of few cycles, over a part of a turn.
           .contains = {"hub_spring", "torque_bias"},
           .prior = Likely::rare,
+          .family = Family::constant_torque,
           .speaks_for = "residual hub torque periodic in the hub angle",
           .refuted_by = "a residual hub torque at the same angle that differs between revolutions"};
 }

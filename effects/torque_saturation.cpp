@@ -29,6 +29,7 @@ Entry torque_saturation() {
                      .highest = scales.torque_peak_N_m,
                      .neutral = scales.torque_peak_N_m}};
           },
+          .family = Family::torque_scale,
           .speaks_for = "excess residual only where the torque magnitude is large",
           .refuted_by = "excess residual at low torque"};
 }

@@ -74,6 +74,7 @@ Entry tuned_mass() {
       },
       .contains = {"attached_mass"},
       .prior = Likely::rare,
+      .family = Family::beam_mass,
       .speaks_for =
           "one pole more than the beam has, and with it one zero of the hub angle; a notch in "
           "the response at the mass's own frequency",

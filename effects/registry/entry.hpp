@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,62 @@ constexpr double probability_of(Likely prior) {
   return 0.0;
 }
 
+/// Physical causes of which several effects are forms: data cannot easily tell these apart.
+enum class Family {
+  stated_law,        ///< a torque law that the arm file states
+  dry_friction,      ///< a dead zone of the drive included
+  viscous_loss,      ///< back-EMF included
+  beam_dissipation,  ///< in the beam or in the air around it
+  beam_stiffness,    ///< sizes of the beam included, all of which shift its poles
+  beam_mass,         ///< along the beam or at a place of it
+  root,              ///< springs between rotor, hub and beam
+  hub_inertia,
+  payload_inertia,  ///< mass and place of the payload included
+  torque_scale,     ///< its gain and its limit
+  timing,           ///< delays and lags of the torque or of one sensor
+  sensor,           ///< the values of one sensor
+  constant_torque,  ///< or one that varies with the hub angle: gravity, a tilt, a ripple
+  hub_spring,       ///< between hub and ground
+  disturbance,      ///< a torque that varies with time alone
+};
+
+/// The name of a family in words: "dry friction of the hub".
+constexpr std::string_view to_string(Family family) {
+  switch (family) {
+    case Family::stated_law:
+      return "law that the arm file states";
+    case Family::dry_friction:
+      return "dry friction of the hub";
+    case Family::viscous_loss:
+      return "viscous loss of the hub";
+    case Family::beam_dissipation:
+      return "dissipation of the beam";
+    case Family::beam_stiffness:
+      return "stiffness of the beam";
+    case Family::beam_mass:
+      return "mass of the beam";
+    case Family::root:
+      return "root";
+    case Family::hub_inertia:
+      return "inertia of the hub";
+    case Family::payload_inertia:
+      return "inertia of the payload";
+    case Family::torque_scale:
+      return "gain and limits of the torque";
+    case Family::timing:
+      return "timing";
+    case Family::sensor:
+      return "sensor";
+    case Family::constant_torque:
+      return "gravity and constant torques";
+    case Family::hub_spring:
+      return "spring of the hub";
+    case Family::disturbance:
+      return "disturbance";
+  }
+  return {};
+}
+
 /// All that the product knows of an effect. Each file `effects/NAME.cpp` defines one function
 /// `Entry NAME()`, which the build finds by the name of the file.
 struct Entry {
@@ -56,6 +113,8 @@ struct Entry {
   std::vector<std::string> same_as = {};
   /// How likely an arm has it before anything is measured.
   Likely prior = Likely::possible;
+  /// Stated by each file effects/NAME.cpp.
+  Family family = Family::stated_law;
   std::string speaks_for;  ///< what the data show where it is the cause
   std::string refuted_by;  ///< what would show that it is not
 };

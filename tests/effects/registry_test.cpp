@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace flexarm::effects {
@@ -71,6 +73,55 @@ TEST(Registry, LimitsAreEffectsOfFewerOrAsManyParameters) {
       const Entry* simpler = find(limit);
       ASSERT_NE(simpler, nullptr) << entry.definition->name << " contains " << limit;
       EXPECT_LE(simpler->definition->parameters.size(), entry.definition->parameters.size());
+    }
+  }
+}
+
+TEST(Registry, EachEffectStatesAFamilyWithAName) {
+  for (const Entry& entry : entries()) {
+    EXPECT_NE(entry.family, Family::stated_law) << entry.definition->name;
+    EXPECT_FALSE(to_string(entry.family).empty()) << entry.definition->name;
+  }
+}
+
+TEST(Registry, FamiliesHaveDifferentNames) {
+  std::set<std::string_view> names;
+  std::set<Family> families;
+  for (const Entry& entry : entries()) {
+    names.insert(to_string(entry.family));
+    families.insert(entry.family);
+  }
+  EXPECT_EQ(names.size(), families.size());
+}
+
+TEST(Registry, LimitsAreOfTheSameFamilyOrItIsStatedWhyNot) {
+  struct Exception {
+    std::string effect;
+    std::string limit;
+    std::string reason;
+  };
+  const std::vector<Exception> exceptions = {
+      {"attached_mass", "payload_mass", "a mass that is attached at the tip is a payload"},
+      {"hub_hysteresis", "hub_spring", "below the friction torque presliding is elastic"},
+      {"local_stiffness_loss", "root_compliance", "a crack at the root is a compliant root"},
+      {"tilt", "hub_spring", "at small angles the torque of gravity is linear in the angle"},
+      {"torque_ripple", "hub_spring", "within a part of a cycle a ripple is linear in the angle"}};
+  std::vector<std::pair<std::string, std::string>> of_others;
+  for (const Entry& entry : entries()) {
+    for (const std::string& limit : entry.contains) {
+      if (find(limit)->family == entry.family) continue;
+      of_others.emplace_back(entry.definition->name, limit);
+    }
+  }
+  std::vector<std::pair<std::string, std::string>> stated;
+  for (const Exception& one : exceptions) stated.emplace_back(one.effect, one.limit);
+  EXPECT_THAT(of_others, testing::UnorderedElementsAreArray(stated));
+}
+
+TEST(Registry, EffectsThatAreTheSameModelAreOfTheSameFamily) {
+  for (const Entry& entry : entries()) {
+    for (const std::string& same : entry.same_as) {
+      EXPECT_EQ(find(same)->family, entry.family) << entry.definition->name;
     }
   }
 }

@@ -71,7 +71,8 @@ std::string judge_of_its_own_case() {
     const bool is_source = name.ends_with(".cpp") || name.ends_with(".hpp");
     // The tests are where the two meet.
     const bool is_test = name.ends_with("_test.cpp") || name.starts_with("with_effects.");
-    if (!is_source || is_test) continue;
+    // Families are names that answers are scored by.
+    if (!is_source || is_test || name == "family_of.cpp") continue;
     std::ifstream file(one.path());
     for (std::string line; std::getline(file, line);) {
       for (const char* room : {"fem/", "effects/", "exact_tf/", "assumed_modes/", "response/",

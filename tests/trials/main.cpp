@@ -43,15 +43,17 @@ TrialOptions parse_options(CLI::App& app, int argc, char** argv) {
   app.add_option("--effects", choice.effects,
                  "Effects to simulate: names, several at once joined by +; or single (each of the "
                  "library), one (drawn by chance), "
-                 "pairs, triples, none, outside, outside-pairs")
+                 "pairs, triples, none, outside, outside-pairs, rig (five to eight at once)")
       ->delimiter(',');
   app.add_option("--strength", choice.strengths,
                  "faint, weak, middle, strong; default: all except faint")
       ->delimiter(',');
   app.add_option("--arm", choice.arm,
                  "aluminium link, steel link, sandwich link, steel ruler; default: by chance");
-  app.add_option("--size", choice.size,
-                 "Size of the effect in place of the strengths; of a changed number its logarithm");
+  app.add_option(
+      "--size", choice.size,
+      "Size of the effect in place of the strengths; of a changed number its logarithm; of a "
+      "rig the largest NRMSE that an effect makes, default 0.3");
   app.add_option(
          "--dirt", choice.dirts,
          "What a laboratory adds to time runs: all, none, or names as closed_loop; default: "

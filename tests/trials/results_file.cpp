@@ -15,8 +15,9 @@ namespace {
 constexpr std::string_view kHeader =
     "version,id,kind,arm,noise,strength,hidden,outside,error,outcome,verdict,named,claimed,right,"
     "class_size,parameters,recovered,covered,before,after,validation_after,validation_floor,time "
-    "[s],processor [s],dirt,dirt_answer,port,ports,values,folder";
-constexpr std::size_t kColumns = 30;
+    "[s],processor "
+    "[s],dirt,dirt_answer,port,ports,leading_named,wrong_names,error_over_floor,values,folder";
+constexpr std::size_t kColumns = 33;
 
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -35,6 +36,20 @@ std::vector<Claim> parse_claims(const std::string& claimed, const std::string& r
     claims.push_back({std::stod(probabilities[i]), answers[i] == "1"});
   }
   return claims;
+}
+
+/// Cells of another trial than a rig's.
+constexpr std::string_view kNoRig = "-";
+
+std::string cells_of_rig(const std::optional<RigScore>& rig) {
+  if (!rig) return fmt::format("{0},{0},{0}", kNoRig);
+  return fmt::format("{},{},{:.4g}", rig->leading_named, rig->wrong_names, rig->error_over_floor);
+}
+
+std::optional<RigScore> parse_rig(const std::string& leading_named, const std::string& wrong_names,
+                                  const std::string& error_over_floor) {
+  if (leading_named == kNoRig) return std::nullopt;
+  return RigScore{std::stoi(leading_named), std::stoi(wrong_names), std::stod(error_over_floor)};
 }
 
 TrialResult parse_line(const std::string& line) {
@@ -73,6 +88,9 @@ TrialResult parse_line(const std::string& line) {
   result.dirt_answer = parse_dirt_answer(text());
   result.port_answer = parse_port_answer(text());
   result.ports = parts_of(text(), ';');
+  const std::string leading_named = text();
+  const std::string wrong_names = text();
+  result.rig = parse_rig(leading_named, wrong_names, text());
   result.values = text();
   result.folder = text();
   return result;
@@ -107,12 +125,13 @@ void append_result(const TrialResult& result, const std::filesystem::path& file)
          << fmt::format("{:.4g},{},{},{},{},{},", result.error, to_string(result.outcome),
                         result.verdict, fmt::join(result.named, "+"), fmt::join(claimed, "+"),
                         fmt::join(right, "+"))
-         << fmt::format("{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.2f},{},{},{},{},{},{}\n",
-                        result.class_size, result.parameters, result.recovered, result.covered,
-                        result.before, result.after, result.validation_after,
-                        result.validation_floor, result.time_s, result.processor_s, result.dirt,
-                        to_string(result.dirt_answer), to_string(result.port_answer),
-                        fmt::join(result.ports, ";"), result.values, result.folder);
+         << fmt::format(
+                "{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.2f},{:.2f},{},{},{},{},{},{},{}\n",
+                result.class_size, result.parameters, result.recovered, result.covered,
+                result.before, result.after, result.validation_after, result.validation_floor,
+                result.time_s, result.processor_s, result.dirt, to_string(result.dirt_answer),
+                to_string(result.port_answer), fmt::join(result.ports, ";"),
+                cells_of_rig(result.rig), result.values, result.folder);
   if (!stream.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 

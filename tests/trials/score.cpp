@@ -200,6 +200,7 @@ TrialResult score(const Truth& truth, const Answer& given) {
   result.outcome = outcome_of(result, answer);
   result.port_answer = port_answer(result, answer);
   result.ports = answer.ports;
+  if (truth.rig) result.rig = rig_score(truth, given);
   result.before = answer.estimation.before;
   result.after = answer.estimation.after;
   result.validation_after = answer.validation.after;

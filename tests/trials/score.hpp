@@ -1,8 +1,10 @@
 #pragma once
 
 #include "tests/trials/answer.hpp"
+#include "tests/trials/rig_score.hpp"
 #include "tests/trials/trial_case.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,7 +95,8 @@ struct TrialResult {
   DirtAnswer dirt_answer = DirtAnswer::none;
   PortAnswer port_answer = PortAnswer::none;
   std::vector<std::string> ports;  ///< that are stated
-  std::string values;              ///< found (hidden), for a reader
+  std::optional<RigScore> rig;
+  std::string values;  ///< found (hidden), for a reader
   std::string folder;
 };
 

@@ -32,6 +32,13 @@ std::string part(int some, int all) {
   return fmt::format("{}/{} ({:.0f} %)", some, all, 100.0 * some / all);
 }
 
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::string row(const std::string& name, const std::vector<std::string>& cells) {
   return fmt::format("| {} | {} |\n", name, fmt::join(cells, " | "));
 }

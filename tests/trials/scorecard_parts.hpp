@@ -23,6 +23,8 @@ bool has_effects(const TrialResult& one, std::size_t effects);
 
 /// "12/14 (86 %)".
 std::string part(int some, int all);
+/// The median, the higher of two in the middle; 0 of no values.
+double median(std::vector<double> values);
 /// Rows of a table in Markdown.
 std::string row(const std::string& name, const std::vector<std::string>& cells);
 std::string header(const std::string& name, const std::vector<std::string>& cells);

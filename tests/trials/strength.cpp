@@ -26,17 +26,18 @@ constexpr int kCoarseLines = 60;
 /// Readings in time, responses by frequency, or logarithms of poles and zeros; a vector a channel.
 using Signals = std::vector<std::vector<std::complex<double>>>;
 
-/// The error of a simulation of the arm as its file has it, by what is hidden.
+/// The error of a simulation of `simulated`, by the world that the data are of.
 class SimulationError {
  public:
-  SimulationError(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs)
-      : of_(of), kind_(kind), runs_(runs) {
+  SimulationError(const World& simulated, const TrialArm& of, measured::RunKind kind,
+                  const std::vector<PlannedRun>& runs, std::span<const arm::Sensor> sensors)
+      : of_(of), kind_(kind), runs_(runs), sensors_(sensors) {
     if (kind == measured::RunKind::time) {
       std::erase_if(runs_, [](const PlannedRun& run) {
         return run.id != "random-high" && run.id != "bang-bang" && run.id != "payload-random";
       });
     }
-    for (const PlannedRun& run : runs_) nominal_.push_back(signals(World{of.arm}, run));
+    for (const PlannedRun& run : runs_) simulated_.push_back(signals(simulated, run));
   }
 
   /// Mean of the channels of all runs; infinite for an arm that is held, or falls out of all
@@ -47,7 +48,7 @@ class SimulationError {
     for (std::size_t r = 0; r < runs_.size(); ++r) {
       const Signals hidden = signals(world, runs_[r]);
       for (std::size_t c = 0; c < hidden.size(); ++c, ++count) {
-        sum += relative_error_of(hidden[c], nominal_[r][c]);
+        sum += relative_error_of(hidden[c], simulated_[r][c]);
       }
     }
     return std::isfinite(sum) ? sum / count : std::numeric_limits<double>::infinity();
@@ -57,12 +58,12 @@ class SimulationError {
   /// Responses range over decades, so that each line counts relative to itself; differences of
   /// logarithms are relative as they are.
   double relative_error_of(const std::vector<std::complex<double>>& hidden,
-                           const std::vector<std::complex<double>>& nominal) const {
+                           const std::vector<std::complex<double>>& simulated) const {
     double squares = 0.0;
     double scale = 0.0;
     for (std::size_t i = 0; i < hidden.size(); ++i) {
-      double square = std::norm(hidden[i] - nominal[i]);
-      if (kind_ == measured::RunKind::frf) square /= std::abs(hidden[i]) * std::abs(nominal[i]);
+      double square = std::norm(hidden[i] - simulated[i]);
+      if (kind_ == measured::RunKind::frf) square /= std::abs(hidden[i]) * std::abs(simulated[i]);
       squares += square;
       scale += kind_ == measured::RunKind::time ? std::norm(hidden[i]) : 1.0;
     }
@@ -73,12 +74,10 @@ class SimulationError {
     world.arm.payload.mass_kg = run.payload_kg;
     if (kind_ == measured::RunKind::modal) return {modal_logarithms(world)};
     if (kind_ == measured::RunKind::frf) {
-      return frequency_responses(world, planned_sensors(),
-                                 planned_frequencies_Hz(of_, kCoarseLines));
+      return frequency_responses(world, sensors_, planned_frequencies_Hz(of_, kCoarseLines));
     }
     Signals readings;
-    for (const auto& channel :
-         simulate_in_time(world, planned_sensors(), run.torque_N_m, kCoarseTime)) {
+    for (const auto& channel : simulate_in_time(world, sensors_, run.torque_N_m, kCoarseTime)) {
       readings.emplace_back(channel.begin(), channel.end());
     }
     return readings;
@@ -98,7 +97,8 @@ class SimulationError {
   const TrialArm& of_;
   measured::RunKind kind_;
   std::vector<PlannedRun> runs_;
-  std::vector<Signals> nominal_;
+  std::span<const arm::Sensor> sensors_;
+  std::vector<Signals> simulated_;
 };
 
 }  // namespace
@@ -115,13 +115,16 @@ double error_of(Strength strength, measured::RunKind kind) {
 }
 
 double error_at(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
-                const Cause& cause, const Chance& chance, double size) {
-  return SimulationError(of, kind, runs)(with_hidden(World{of.arm}, of, cause, size, chance));
+                const Cause& cause, const Chance& chance, double size,
+                std::span<const arm::Sensor> sensors) {
+  const SimulationError error_made(World{of.arm}, of, kind, runs, sensors);
+  return error_made(with_hidden(World{of.arm}, of, cause, size, chance));
 }
 
 FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
-                    const Cause& cause, const Chance& chance, double error) {
-  const SimulationError error_made(of, kind, runs);
+                    const Cause& cause, const Chance& chance, double error,
+                    std::span<const arm::Sensor> sensors) {
+  const SimulationError error_made(World{of.arm}, of, kind, runs, sensors);
   const auto made_by = [&](double size) {
     return error_made(with_hidden(World{of.arm}, of, cause, size, chance));
   };
@@ -137,6 +140,17 @@ FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vecto
   }
   if (!std::isfinite(found.error)) throw std::runtime_error(cause.name + ": no size was found");
   return found;
+}
+
+std::vector<double> errors_without_each(const TrialArm& of, const std::vector<PlannedRun>& runs,
+                                        const World& world, std::span<const arm::Sensor> sensors) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < world.hidden.size(); ++i) {
+    World others = world;
+    others.hidden.erase(others.hidden.begin() + static_cast<std::ptrdiff_t>(i));
+    errors.push_back(SimulationError(others, of, measured::RunKind::time, runs, sensors)(world));
+  }
+  return errors;
 }
 
 }  // namespace flexarm::trials

@@ -4,7 +4,9 @@
 #include "tests/trials/world.hpp"
 
 #include <array>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace flexarm::trials {
 
@@ -27,12 +29,19 @@ struct FoundSize {
   double error = 0.0;  ///< that this size makes; less than asked for where nothing makes as much
 };
 
-/// The error that `cause` of this size makes.
+/// The error that `cause` of this size makes in the readings of `sensors`.
 double error_at(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
-                const Cause& cause, const Chance& chance, double size);
+                const Cause& cause, const Chance& chance, double size,
+                std::span<const arm::Sensor> sensors = planned_sensors());
 
 /// The size at which `cause` makes this error, to 5 % of it, by bisection of its logarithm.
 FoundSize find_size(const TrialArm& of, measured::RunKind kind, const std::vector<PlannedRun>& runs,
-                    const Cause& cause, const Chance& chance, double error);
+                    const Cause& cause, const Chance& chance, double error,
+                    std::span<const arm::Sensor> sensors = planned_sensors());
+
+/// The errors of simulations of time runs that know all hidden causes of `world` but one, an error
+/// a cause. A simulation that knows them all has none.
+std::vector<double> errors_without_each(const TrialArm& of, const std::vector<PlannedRun>& runs,
+                                        const World& world, std::span<const arm::Sensor> sensors);
 
 }  // namespace flexarm::trials

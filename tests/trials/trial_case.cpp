@@ -7,6 +7,8 @@
 #include "tests/trials/dirt.hpp"
 #include "tests/trials/excitations.hpp"
 #include "tests/trials/frequency_simulation.hpp"
+#include "tests/trials/noisy_record.hpp"
+#include "tests/trials/rig_case.hpp"
 #include "tests/trials/time_simulation.hpp"
 
 #include <fmt/format.h>
@@ -46,18 +48,8 @@ Recording record_time_run(const MadeCase& made, const World& world, const Planne
     made.dirt.simulation(made.key.dirt_size, made.of, dirt_random, options);
   }
   const auto& sensors = planned_sensors();
-  SimulatedRun simulated = simulate_run(world, sensors, run.torque_N_m, options);
-  measured::TimeRecord& record = recording.record;
-  record.torque_N_m = std::move(simulated.torque_N_m);
-  for (std::size_t k = 0; k < record.torque_N_m.size(); ++k) {
-    record.time_s.push_back(static_cast<double>(k) * kSampleTime_s);
-  }
-  auto& channels = simulated.channels;
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const double noise_deviation = made.key.noise * deviation(channels[i]);
-    for (double& value : channels[i]) value += noise_deviation * random.normal();
-    record.channels.push_back({sensors[i], channels[i]});
-  }
+  recording.record = noisy_record(simulate_run(world, sensors, run.torque_N_m, options), sensors,
+                                  made.key.noise, random);
   return recording;
 }
 
@@ -121,14 +113,19 @@ std::string TrialKey::name() const {
 }
 
 std::string TrialKey::clean_name() const {
-  const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
   const std::string where = arm.empty() ? "" : arm + "-";
+  if (rig) {
+    const std::string most = size ? strength_name() + "-" : "";
+    return fmt::format("time-rig-{}{}{:g}-{}", where, most, 100.0 * noise, number);
+  }
+  const std::string causes = hidden.empty() ? "none" : fmt::format("{}", fmt::join(hidden, "+"));
   const std::string how_much = hidden.empty() ? "" : strength_name() + "-";
   return fmt::format("{}-{}-{}{}{:g}-{}", measured::to_string(kind), causes, where, how_much,
                      100.0 * noise, number);
 }
 
 std::string TrialKey::strength_name() const {
+  if (rig && !size) return "rig";
   return size ? fmt::format("{:g}", *size) : std::string(to_string(strength));
 }
 
@@ -142,6 +139,7 @@ std::string TrialKey::folder_name() const {
 }
 
 Truth write_case(const TrialKey& key, const fs::path& folder) {
+  if (key.rig) return write_rig_case(key, folder);
   Random random(key.seed, key.clean_name());
   Random dirt_random(key.seed, key.clean_name() + " dirt " + key.dirt);
   const TrialArm& of = choose_arm(key, random);
@@ -205,9 +203,16 @@ nlohmann::ordered_json truth_json(const Truth& truth) {
     causes[one.name] = one.parameters;
     if (!one.sensor.empty()) causes[one.name]["sensor"] = one.sensor;
   }
-  return {{"id", truth.key.id()},  {"seed", truth.key.seed}, {"arm", truth.arm},
-          {"causes", causes},      {"sizes", truth.sizes},   {"errors", truth.errors},
-          {"dirt", truth.key.dirt}};
+  nlohmann::ordered_json json = {
+      {"id", truth.key.id()}, {"seed", truth.key.seed}, {"arm", truth.arm},      {"causes", causes},
+      {"sizes", truth.sizes}, {"errors", truth.errors}, {"dirt", truth.key.dirt}};
+  if (truth.rig) {
+    json["costs"] = truth.rig->costs;
+    json["leading"] = truth.rig->leading();
+    json["counts_per_turn"] = truth.rig->counts_per_turn;
+    json["validation_floor"] = truth.rig->validation_floor;
+  }
+  return json;
 }
 
 }  // namespace flexarm::trials

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "tests/trials/dirt.hpp"
+#include "tests/trials/rig_case.hpp"
 
 #include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
@@ -117,6 +118,15 @@ std::vector<TrialKey> list_trials(const TrialChoice& choice) {
     if (!known) keys.push_back(std::move(key));
   };
   const auto add_sets = [&](TrialKey key, const std::string& word) {
+    if (word == "rig") {
+      if (key.kind != measured::RunKind::time || !key.dirt.empty()) return;
+      Random random(key.seed, fmt::format("rig {}", key.number));
+      key.hidden = draw_rig_causes(random);
+      key.noise = kRigNoise;
+      key.rig = true;
+      add(key);
+      return;
+    }
     const Dirt& dirt = find_dirt(key.dirt);
     const auto drawn = std::ranges::find(kDrawnSets, word, &DrawnSets::word);
     if (drawn != std::end(kDrawnSets)) {

@@ -13,7 +13,8 @@ namespace flexarm::trials {
 struct TrialChoice {
   std::vector<std::string> kinds = {"time", "frf", "modal"};
   /// Names of causes, several joined by `+`, `single` for the vocabulary, `none`, `one`,
-  /// drawn by chance, `pairs`, `triples`, `outside`, `outside-pairs`.
+  /// drawn by chance, `pairs`, `triples`, `outside`, `outside-pairs`, `rig` (rig_case.hpp). A rig
+  /// is of time runs without dirt, and has its own noise and sizes.
   std::vector<std::string> effects = {"single", "pairs", "none", "outside"};
   std::vector<std::string> strengths = {"weak", "middle", "strong"};
   std::vector<double> noises = {0.005, 0.03};

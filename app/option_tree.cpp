@@ -36,7 +36,8 @@ CommandDescription describe_parser(const CLI::App& parser) {
   description.summary = parser.get_description();
   description.footer = parser.get_footer();
   for (const CLI::Option* option : parser.get_options()) {
-    description.options.push_back(describe_option(*option));
+    // One without a group is not described: a user has no need of it.
+    if (!option->get_group().empty()) description.options.push_back(describe_option(*option));
   }
   return description;
 }

@@ -109,7 +109,7 @@ TEST_F(ImportJoin, TimeStampsOfJsonAreOfTheSameClock) {
 }
 
 TEST_F(ImportJoin, StampsWithoutACommonTimeAreRefused) {
-  write_pair(iso, [](int ms) { return "2024-03-02T" + at_noon(ms); });
+  write_pair(without_zone, [](int ms) { return "2024-03-02T" + at_noon(ms); });
   EXPECT_THAT(import({"a.csv", "b.csv", "--join"}).errors,
               AllOf(HasSubstr("no time in which all files have samples"),
                     HasSubstr("b.csv from 86400.1 s")));

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -18,13 +19,16 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kCoulomb_N_m = 0.02;
-constexpr double kMass_kg = 0.05;
+constexpr double kMass_kg = 0.005;
 
 /// A friction and a payload are hidden.
 class RankedTest : public testing::Test {
  protected:
+  const Hypothesis& hypothesis(const std::string& effect) const {
+    return *std::ranges::find(hypotheses_, effect, &Hypothesis::effect);
+  }
   Candidate friction(double torque_N_m) const {
-    return problem_.as_filed().with(hypotheses_.front(), {torque_N_m});
+    return problem_.as_filed().with(hypothesis("coulomb_friction"), {torque_N_m});
   }
 
   const Experiment experiment_ =
@@ -75,10 +79,11 @@ TEST_F(RankedTest, WeightsAreTheDerivativesOfTheCost) {
 }
 
 TEST_F(RankedTest, CostRanksWhateverTheNoiseIs) {
-  // Half of the friction leaves less than none in the ratio that all of it does of half.
+  // With half of the friction noise is far from reached, and it is better than none.
   const auto cost = [&](double torque_N_m) {
+    const Candidate both = friction(torque_N_m).with(hypothesis("payload_mass"), {kMass_kg});
     return likelihood_.cost(
-        likelihood_.lines(*problem_.residuals(friction(torque_N_m), problem_.estimation_runs())));
+        likelihood_.lines(*problem_.residuals(both, problem_.estimation_runs())));
   };
   EXPECT_LT(cost(kCoulomb_N_m), cost(0.5 * kCoulomb_N_m));
   EXPECT_LT(cost(0.5 * kCoulomb_N_m), cost(0.0));

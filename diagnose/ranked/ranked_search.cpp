@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -31,8 +32,6 @@ class Rung {
       : likelihood_(problem, problem.estimation_runs()), options_(options), work_(work) {
     for (const Hypothesis& one : hypotheses) hypotheses_.push_back(&one);
   }
-
-  const Likelihood& likelihood() const { return likelihood_; }
 
   /// Fits the sets of the beam to these data.
   void refit(std::vector<RankedFit>& beam) {
@@ -188,12 +187,10 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
     }
     work.tell("effects on all data", 0.5);
     Rung rung(problem, hypotheses, options, work);
-    made.nothing = ranked_fit(rung.likelihood(), problem.as_filed(), work);
     climb(rung);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;
-    work.lift_deadline();
   }
   made.best = std::move(beam);
   return made;

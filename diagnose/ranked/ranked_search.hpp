@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -21,11 +20,10 @@ struct RankedOptions {
   std::array<std::size_t, 3> rungs = {400, 1600, 6400};
 };
 
-/// The sets of effects that a search ends with, fitted to all estimation runs, the best first.
+/// The sets of effects that a search ends with, the best first.
 struct RankedSets {
   std::vector<RankedFit> best = {};
-  RankedFit nothing = {};  ///< the arm as filed
-  bool is_complete = true;
+  bool is_complete = true;  ///< fitted to all estimation runs
 };
 
 /// Searches the set of effects with the lowest score (ranked_fit.hpp): on a ladder of ever more
@@ -38,8 +36,8 @@ struct RankedSets {
 /// - an effect that is not material (RankedOptions::least_drop) is dropped, and one that is not
 ///   material beside its limit yields to it.
 ///
-/// `problem` and `hypotheses` must outlive the result. After the deadline of the work: what was
-/// fitted to all data by then. Throws Cancelled where the work is cancelled otherwise.
+/// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
+/// Cancelled where the work is cancelled otherwise.
 RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
                          const RankedOptions& options, ReportedWork& work);
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,8 +31,8 @@ std::vector<RankedFit> without_each(const Likelihood& likelihood, const RankedFi
   return made;
 }
 
-/// `best` without the effects that validation runs are predicted better without.
-RankedFit held_out_best(const Likelihood& likelihood, RankedFit best, const ReportedWork& work) {
+/// Drops the effects that validation runs are predicted better without.
+void drop_by_validation(const Likelihood& likelihood, RankedFit& best, const ReportedWork& work) {
   const Likelihood held_out(likelihood.problem(), likelihood.problem().validation_runs());
   while (!best.candidate.effects.empty()) {
     const double with = held_out_cost(held_out, best.candidate);
@@ -40,7 +42,6 @@ RankedFit held_out_best(const Likelihood& likelihood, RankedFit best, const Repo
     if (!(held_out_cost(held_out, least->candidate) < with)) break;
     best = std::move(*least);
   }
-  return best;
 }
 
 bool has_validation(const Problem& problem) {
@@ -58,38 +59,49 @@ void keep(const Problem& problem, const Candidate& candidate, Selection& made) {
   if (find_set(sets, candidate) == sets.end()) sets.push_back(explained(problem, candidate));
 }
 
+/// Throws Cancelled where the work is cancelled, but not after its deadline.
+void search(const SelectionTask& task, const Problem& problem, ReportedWork& work,
+            Selection& made) {
+  constexpr const char* kStage = "ranked search";
+  RankedSets sets = ranked_search(problem, task.hypotheses, {}, work);
+  if (!sets.is_complete) made.end = SearchEnd{kStage, {}};
+  RankedFit& best = sets.best.front();
+  const Likelihood likelihood(problem, problem.estimation_runs());
+  std::vector<RankedFit> others;
+  try {
+    if (has_validation(problem)) drop_by_validation(likelihood, best, work);
+    others = without_each(likelihood, best, work);
+    for (std::size_t i = 0; i < best.candidate.effects.size(); ++i) {
+      const Candidate alone =
+          problem.as_filed().with(best.candidate.effects[i], best.candidate.values_of(i));
+      others.push_back(ranked_fit(likelihood, alone, work));
+    }
+  } catch (const Cancelled&) {
+    if (!work.is_out_of_time()) throw;
+    made.end = SearchEnd{kStage, {}};
+  }
+  made.nothing = explained(problem, problem.as_filed());
+  made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best.candidate);
+  made.chosen.fit.converged = best.converged;
+  std::ranges::move(sets.best, std::back_inserter(others));
+  for (const RankedFit& one : others) keep(problem, one.candidate, made);
+  sort_by_fit(made.singles);
+  sort_by_fit(made.combinations);
+}
+
 }  // namespace
 
 PredictedSelection select_by_rank(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   PredictedSelection made{
       .selection = Selection{problem}, .reason = "ranked search", .simulated = problem};
-  Selection& selection = made.selection;
-  selection.hypotheses = task.hypotheses.size();
+  made.selection.hypotheses = task.hypotheses.size();
   ReportedWork work(progress, task.options.deadline);
-  RankedSets sets = ranked_search(problem, task.hypotheses, {}, work);
-  if (!sets.is_complete) selection.end = SearchEnd{"ranked search", {}};
-  RankedFit best = std::move(sets.best.front());
-  const Likelihood likelihood(problem, problem.estimation_runs());
-  if (has_validation(problem)) best = held_out_best(likelihood, std::move(best), work);
-  selection.nothing = explained(problem, problem.as_filed());
-  selection.chosen =
-      best.candidate.effects.empty() ? selection.nothing : explained(problem, best.candidate);
-  selection.chosen.fit.converged = best.converged;
-  keep(problem, best.candidate, selection);
-  for (const RankedFit& one : without_each(likelihood, best, work)) {
-    keep(problem, one.candidate, selection);
+  try {
+    search(task, problem, work, made.selection);
+  } catch (const Cancelled&) {
+    made.selection.cancelled = true;
   }
-  for (std::size_t i = 0; i < best.candidate.effects.size(); ++i) {
-    const Candidate alone =
-        problem.as_filed().with(best.candidate.effects[i], best.candidate.values_of(i));
-    keep(problem, ranked_fit(likelihood, alone, work).candidate, selection);
-  }
-  for (std::size_t i = 1; i < sets.best.size(); ++i) {
-    keep(problem, sets.best[i].candidate, selection);
-  }
-  sort_by_fit(selection.singles);
-  sort_by_fit(selection.combinations);
   return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/command.hpp"
 #include "app/list_option.hpp"
+#include "arm/ascii.hpp"
 #include "arm/input_error.hpp"
 #include "report/figures/gnuplot.hpp"
 
@@ -92,9 +93,9 @@ report::FigureSize size_in(const std::string& text) {
 /// A family as fontconfig and CSS know it: letters and digits of any script, blanks, '-', '_', '.'.
 bool is_font_family(const std::string& name) {
   return !name.starts_with(' ') && std::ranges::all_of(name, [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || byte >= 0x80;
-    return is_letter || (c >= '0' && c <= '9') || c == ' ' || c == '-' || c == '_' || c == '.';
+    const bool is_beyond_ascii = static_cast<unsigned char>(c) >= 0x80;
+    return is_beyond_ascii || arm::is_letter(c) || arm::is_digit(c) || c == ' ' || c == '-' ||
+           c == '_' || c == '.';
   });
 }
 

@@ -1,5 +1,7 @@
 #include "app/file_names.hpp"
 
+#include "arm/ascii.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +19,7 @@ std::string file_name(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   std::string made = name.substr(0, std::min(dot, kLongestName)) + name.substr(dot);
   for (char& c : made) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+    const bool plain = arm::is_letter(c) || arm::is_digit(c) ||
                        std::string_view("-_.+@").find(c) != std::string_view::npos;
     if (!plain) c = '_';
   }

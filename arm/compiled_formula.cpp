@@ -1,5 +1,6 @@
 #include "arm/compiled_formula.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/decimal_comma.hpp"
 #include "arm/formula_syntax.hpp"
 #include "arm/input_error.hpp"
@@ -33,13 +34,9 @@ mu::Parser plain_parser() {
   return parser;
 }
 
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 /// What is no ASCII, such as Greek, is taken for a letter, so that it is refused as a whole word.
 bool is_of_word(char c) {
-  return is_letter(c) || is_decimal(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
+  return is_letter(c) || is_digit(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
 }
 
 std::vector<std::string> names_of_functions(const mu::Parser& parser) {
@@ -78,7 +75,7 @@ class FormulaReader {
  private:
   void add_number(const std::string& name) {
     if (name.empty() || !is_letter(name.front()) || !std::ranges::all_of(name, [](char c) {
-          return is_letter(c) || is_decimal(c) || c == '_';
+          return is_letter(c) || is_digit(c) || c == '_';
         })) {
       throw InputError("no name of a number; must be letters, digits and _, a letter first", name);
     }

@@ -1,5 +1,6 @@
 #include "arm/formula_syntax.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/input_error.hpp"
 
 #include <fmt/format.h>
@@ -8,19 +9,15 @@
 
 namespace flexarm::arm {
 
-bool is_decimal(char c) {
-  return c >= '0' && c <= '9';
-}
-
 bool begins_number(std::string_view formula, std::size_t at) {
-  return is_decimal(formula[at]) ||
-         (formula[at] == '.' && at + 1 < formula.size() && is_decimal(formula[at + 1]));
+  return is_digit(formula[at]) ||
+         (formula[at] == '.' && at + 1 < formula.size() && is_digit(formula[at + 1]));
 }
 
 std::size_t number_end(std::string_view formula, std::size_t at) {
   std::size_t end = at;
   const auto skip = [&] {
-    while (end < formula.size() && (is_decimal(formula[end]) || formula[end] == '.')) ++end;
+    while (end < formula.size() && (is_digit(formula[end]) || formula[end] == '.')) ++end;
   };
   skip();
   if (end >= formula.size() || (formula[end] != 'e' && formula[end] != 'E')) return end;
@@ -28,7 +25,7 @@ std::size_t number_end(std::string_view formula, std::size_t at) {
   if (exponent < formula.size() && (formula[exponent] == '+' || formula[exponent] == '-')) {
     ++exponent;
   }
-  if (exponent < formula.size() && is_decimal(formula[exponent])) {
+  if (exponent < formula.size() && is_digit(formula[exponent])) {
     end = exponent;
     skip();
   }
@@ -51,8 +48,7 @@ std::string syntax_fault(const mu::ParserError& error, std::string_view operand,
       break;
   }
   if (place >= formula.size()) return "cannot be read at its end";
-  return fmt::format("cannot be read at character {}, {}", place + 1,
-                     shown(formula.substr(place)));
+  return fmt::format("cannot be read at character {}, {}", place + 1, shown(formula.substr(place)));
 }
 
 }  // namespace flexarm::arm

@@ -12,8 +12,6 @@ namespace flexarm::arm {
 
 // What the texts of formulas have in common, whichever names stand in them.
 
-bool is_decimal(char c);
-
 /// A number begins at `at`.
 bool begins_number(std::string_view formula, std::size_t at);
 

@@ -289,13 +289,13 @@ std::vector<measured::PartColumn> ColumnChoice::response_parts(
 }
 
 std::vector<std::size_t> ColumnChoice::left_out_places(std::span<const ColumnLabel> columns) const {
+  const std::vector<std::string> names = measured::column_names(columns);
   std::vector<std::size_t> places;
   for (const auto& name : left_out) {
-    const auto place = measured::column_place(measured::column_names(columns), name);
+    const auto place = measured::column_place(names, name);
     if (!place) {
       throw InputError(
-          fmt::format("--leave-out: {}",
-                      measured::unknown_column(measured::column_names(columns), name).what()));
+          fmt::format("--leave-out: {}", measured::unknown_column(names, name).what()));
     }
     places.push_back(*place);
   }

@@ -1,5 +1,7 @@
 #include "report/words.hpp"
 
+#include "arm/ascii.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,10 +39,6 @@ template <std::size_t n>
 std::string_view spelt(const std::array<Spelling, n>& spellings, std::string_view id) {
   const auto* const found = std::ranges::find(spellings, id, &Spelling::first);
   return found == spellings.end() ? id : found->second;
-}
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 }  // namespace
@@ -97,10 +95,10 @@ std::string unit_text(std::string_view unit) {
     std::size_t end = 1;
     if (unit.starts_with('^')) {
       if (unit.substr(1).starts_with('-')) ++end;
-      while (end < unit.size() && is_digit(unit[end])) ++end;
+      while (end < unit.size() && arm::is_digit(unit[end])) ++end;
     }
     const std::string exponent(unit.substr(1, end - 1));
-    const bool raises = !exponent.empty() && is_digit(exponent.back());
+    const bool raises = !exponent.empty() && arm::is_digit(exponent.back());
     text += raises ? superscript(std::atoi(exponent.c_str())) : std::string(unit.substr(0, end));
     unit.remove_prefix(end);
   }

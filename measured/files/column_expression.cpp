@@ -1,5 +1,6 @@
 #include "measured/files/column_expression.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/decimal_comma.hpp"
 #include "arm/formula_syntax.hpp"
 #include "arm/input_error.hpp"
@@ -52,7 +53,7 @@ mu::Parser new_parser() {
 
 /// Letters, underscores, and all that is no ASCII, such as Greek.
 bool begins_name(char c) {
-  return is_letter(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
+  return arm::is_letter(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
 }
 
 [[noreturn]] void refuse_expression(const std::string& expression, const std::string& why) {
@@ -127,7 +128,7 @@ class Rewriter {
   }
 
   std::size_t name_end(std::size_t at) const {
-    const auto is_of_name = [](char c) { return begins_name(c) || arm::is_decimal(c) || c == '.'; };
+    const auto is_of_name = [](char c) { return begins_name(c) || arm::is_digit(c) || c == '.'; };
     while (at < all_.size() && is_of_name(all_[at])) ++at;
     return at;
   }

@@ -47,15 +47,6 @@ inline bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-inline bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-/// Whether a letter of ASCII.
-inline bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 /// The text with letters of ASCII in lower case.
 std::string in_lower_case(std::string_view text);
 

@@ -1,8 +1,8 @@
 #include "measured/files/mat_file.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/input_error.hpp"
 #include "measured/files/atomic_file.hpp"
-#include "measured/files/delimited_line.hpp"
 #include "measured/files/memory_file.hpp"
 
 #include <fmt/format.h>
@@ -38,9 +38,10 @@ using File = std::unique_ptr<mat_t, CloseFile>;
 using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
 void require_name(const std::string& name) {
-  const bool fits =
-      !name.empty() && name.size() <= kLongestName && is_letter(name.front()) &&
-      std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+  const bool fits = !name.empty() && name.size() <= kLongestName && arm::is_letter(name.front()) &&
+                    std::ranges::all_of(name, [](char c) {
+                      return arm::is_letter(c) || arm::is_digit(c) || c == '_';
+                    });
   if (!fits)
     throw std::invalid_argument(fmt::format("\"{}\" is not a valid .mat variable name", name));
 }

@@ -1,5 +1,5 @@
+#include "arm/ascii.hpp"
 #include "arm/input_error.hpp"
-#include "measured/files/delimited_line.hpp"
 #include "measured/files/mat_levels.hpp"
 
 #include <fmt/format.h>
@@ -63,10 +63,10 @@ std::optional<Level4Header> header_of(std::string_view bytes) {
 
 /// A letter, then letters, digits and _, ended by 0.
 std::optional<std::string> name_of(std::string_view bytes) {
-  if (bytes.empty() || !is_letter(bytes.front()) || bytes.back() != '\0') return std::nullopt;
+  if (bytes.empty() || !arm::is_letter(bytes.front()) || bytes.back() != '\0') return std::nullopt;
   std::string name(bytes.substr(0, bytes.find('\0')));
   for (const char c : name) {
-    if (!is_letter(c) && !is_digit(c) && c != '_') return std::nullopt;
+    if (!arm::is_letter(c) && !arm::is_digit(c) && c != '_') return std::nullopt;
   }
   return name;
 }

@@ -32,8 +32,10 @@ std::size_t elements(const matvar_t& variable) {
   return product;
 }
 
-/// The UTF-16 or Latin-1 of a text, column by column; empty of one that is kept in another way.
+/// The UTF-16 or Latin-1 of a matrix of letters, column by column; empty of any other variable, and
+/// of letters that are kept in another way.
 std::vector<double> text_units(const matvar_t& variable) {
+  if (variable.class_type != MAT_C_CHAR || variable.rank != 2) return {};
   const std::size_t size = elements(variable);
   const auto unit_bytes = static_cast<std::size_t>(variable.data_size);
   const bool is_known = variable.data != nullptr && (unit_bytes == 1 || unit_bytes == 2);
@@ -177,8 +179,7 @@ void append(matvar_t& variable, const std::string& name, MatContents& contents) 
     append_cells(variable, name, contents);
   } else if (auto numbers = read_numbers(variable)) {
     add_numbers(name, std::move(*numbers), contents);
-  } else if (const auto units = text_units(variable);
-             variable.class_type == MAT_C_CHAR && variable.rank == 2 && !units.empty()) {
+  } else if (const auto units = text_units(variable); !units.empty()) {
     add_text(name, units, variable.dims[0], contents);
   } else if (variable.class_type == MAT_C_CHAR) {
     contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));

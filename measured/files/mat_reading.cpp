@@ -94,15 +94,16 @@ void add_numbers(const std::string& name, MatNumbers numbers, MatContents& conte
 
 void add_text(const std::string& name, const std::vector<double>& units, std::size_t rows,
               MatContents& contents) {
+  const auto leave_out = [&] {
+    contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
+  };
+  if (rows > kMostTexts) return leave_out();
   MatStrings texts;
   for (std::size_t row = 0; row < std::max<std::size_t>(rows, 1); ++row) {
     std::vector<double> letters;
     for (std::size_t at = row; at < units.size(); at += rows) letters.push_back(units[at]);
     auto text = text_of_units(letters);
-    if (!text || rows > kMostTexts) {
-      contents.left_out.push_back(fmt::format("{}: {}", name, kUnreadText));
-      return;
-    }
+    if (!text) return leave_out();
     texts.push_back(std::move(*text));
   }
   MatVariable variable{name, texts.front()};

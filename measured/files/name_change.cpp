@@ -1,5 +1,6 @@
 #include "measured/files/name_change.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/number.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
@@ -46,7 +47,7 @@ bool is_beyond_ascii(char c) {
 }
 
 bool begins_with_name(string_view text) {
-  return !text.empty() && (is_letter(text.front()) || is_beyond_ascii(text.front()) ||
+  return !text.empty() && (arm::is_letter(text.front()) || is_beyond_ascii(text.front()) ||
                            text.front() == '(' || text.front() == '|');
 }
 
@@ -63,8 +64,8 @@ std::size_t number_end(string_view text, std::size_t begin) {
 bool is_times(string_view text, std::size_t at) {
   if (text[at] == '*') return true;
   const bool is_x = text[at] == 'x' || text[at] == 'X';
-  return is_x && (at == 0 || !is_letter(text[at - 1])) &&
-         (at + 1 == text.size() || !is_letter(text[at + 1]));
+  return is_x && (at == 0 || !arm::is_letter(text[at - 1])) &&
+         (at + 1 == text.size() || !arm::is_letter(text[at + 1]));
 }
 
 std::size_t first_behind_blanks(string_view text, std::size_t at) {
@@ -108,7 +109,7 @@ std::optional<NameChange> function_in(string_view text) {
 std::optional<NameChange> quotient_in(string_view text) {
   const auto at = text.find("/dt");
   if (!text.starts_with('d') || at == string_view::npos) return std::nullopt;
-  if (at + 3 < text.size() && is_letter(text[at + 3])) return std::nullopt;
+  if (at + 3 < text.size() && arm::is_letter(text[at + 3])) return std::nullopt;
   string_view rest = trimmed(at == 1 ? text.substr(4) : text.substr(1, at - 1));
   if (rest.starts_with('(') && rest.ends_with(')')) rest = rest.substr(1, rest.size() - 2);
   const bool is_once = text.find('^') == string_view::npos;
@@ -132,22 +133,23 @@ std::optional<NameChange> number_behind(const std::string& text) {
   const auto sign = text.find_last_of("+-");
   if (sign == std::string::npos || sign == 0) return std::nullopt;
   const std::string number = text.substr(first_behind_blanks(text, sign + 1));
-  if (number.empty() || !is_digit(number.front()) || number_end(number, 0) != number.size()) {
+  if (number.empty() || !arm::is_digit(number.front()) || number_end(number, 0) != number.size()) {
     return std::nullopt;
   }
   const auto last = text.find_last_not_of(' ', sign - 1);
   if (last == std::string::npos) return std::nullopt;
   if (text[sign] == '-') {
-    const bool is_index = number.size() == 1 || (number[0] == '0' && is_digit(number[1]));
+    const bool is_index = number.size() == 1 || (number[0] == '0' && arm::is_digit(number[1]));
     const auto digits = text.find_last_not_of("0123456789", last);
     const bool is_range =
-        is_digit(text[last]) && (digits == std::string::npos || !is_letter(text[digits]));
+        arm::is_digit(text[last]) && (digits == std::string::npos || !arm::is_letter(text[digits]));
     if (is_index || is_range) return std::nullopt;
   }
-  const bool is_behind_name = is_letter(text[last]) || is_digit(text[last]) ||
+  const bool is_behind_name = arm::is_letter(text[last]) || arm::is_digit(text[last]) ||
                               is_beyond_ascii(text[last]) || text[last] == ')' || text[last] == ']';
   const bool is_exponent = last + 1 == sign && last > 0 &&
-                           (text[last] == 'e' || text[last] == 'E') && is_digit(text[last - 1]);
+                           (text[last] == 'e' || text[last] == 'E') &&
+                           arm::is_digit(text[last - 1]);
   if (!is_behind_name || is_exponent) return std::nullopt;
   return without_mark(ChangeKind::number, text, sign, text.size());
 }
@@ -196,7 +198,7 @@ std::optional<NameChange> factor_in(string_view name) {
     return without_mark(ChangeKind::factor, text, 0, sign + 1);
   }
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool is_divided = text[at] == '/' && at > 0 && !is_digit(text[at - 1]);  // no 1/2
+    const bool is_divided = text[at] == '/' && at > 0 && !arm::is_digit(text[at - 1]);  // no 1/2
     if (!is_divided && text[at] != '^' && !is_times(text, at)) continue;
     const std::size_t begin = first_behind_blanks(text, at + 1);
     const std::size_t end = number_end(text, begin);

@@ -1,5 +1,6 @@
 #include "measured/files/sampling_settings.hpp"
 
+#include "arm/ascii.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
@@ -53,7 +54,7 @@ bool is_one_of(std::span<const string_view> names, string_view words) {
 /// Letters and digits in lower case, "x0" of "X0"; empty for what is no such name.
 std::string setting_name_of(string_view words) {
   constexpr std::size_t kLongestSetting = 40;
-  if (words.empty() || !is_letter(words.front()) || words.size() > kLongestSetting) return "";
+  if (words.empty() || !arm::is_letter(words.front()) || words.size() > kLongestSetting) return "";
   const std::string base = split_column_name(words).base;
   if (base == "Ts") return "sampletime";  // "ts" may be a time stamp
   std::string name = plain_letters(base);

@@ -1,10 +1,10 @@
 #include "measured/files/stated_effect.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/given_effects.hpp"
 #include "arm/input_error.hpp"
 #include "arm/nearest_name.hpp"
 #include "measured/files/arm_file.hpp"
-#include "measured/files/delimited_line.hpp"
 #include "measured/files/toml_node.hpp"
 
 #include <fmt/format.h>
@@ -76,8 +76,8 @@ class StatedEffectReader {
   }
 
   void require_name(const toml::table& table) {
-    const bool is_plain =
-        std::ranges::all_of(name_, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+    const bool is_plain = std::ranges::all_of(
+        name_, [](char c) { return arm::is_letter(c) || arm::is_digit(c) || c == '_'; });
     if (is_plain && !name_.empty()) return;
     add_fault(line_of_node(table),
               fmt::format("{}: the name of a stated law must be letters, digits and _", key_));

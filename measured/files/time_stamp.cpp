@@ -1,5 +1,6 @@
 #include "measured/files/time_stamp.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/number.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/delimited_line.hpp"
@@ -58,8 +59,8 @@ class StampText {
     return taken;
   }
 
-  string_view digits() { return take_while(is_digit); }
-  string_view letters() { return take_while(is_letter); }
+  string_view digits() { return take_while(arm::is_digit); }
+  string_view letters() { return take_while(arm::is_letter); }
 
  private:
   string_view rest_;
@@ -115,7 +116,7 @@ bool read_date(string_view text, TimeStamp& stamp) {
   std::size_t named = parts.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto is_of_name = [](char c) {
-      return is_letter(c) || static_cast<unsigned char>(c) > 127;
+      return arm::is_letter(c) || static_cast<unsigned char>(c) > 127;
     };
     parts[i] = rest.digits();
     if (parts[i].empty() && named == parts.size()) {
@@ -164,7 +165,7 @@ std::int64_t billionths(string_view digits) {
 /// Reads the text behind the clock: AM or PM, then a time zone.
 bool read_suffixes(StampText& rest, int& hours, std::int64_t& offset_ns, bool& has_zone) {
   rest.pass_blanks();
-  for (int words = 0; words < 2 && is_letter(rest.peek()); ++words) {
+  for (int words = 0; words < 2 && arm::is_letter(rest.peek()); ++words) {
     std::string word = plain_letters(rest.letters());
     if (rest.take('.')) {  // a.m.
       word += plain_letters(rest.letters());
@@ -237,7 +238,7 @@ std::string long_form(string_view text) {
   constexpr std::size_t kDate = 8;
   constexpr std::size_t kClock = 15;
   if (text.size() < kClock || text[kDate] != 'T') return "";
-  const auto is_digits = [](string_view part) { return std::ranges::all_of(part, is_digit); };
+  const auto is_digits = [](string_view part) { return std::ranges::all_of(part, arm::is_digit); };
   if (!is_digits(text.substr(0, kDate)) || !is_digits(text.substr(kDate + 1, kClock - kDate - 1))) {
     return "";
   }
@@ -320,7 +321,7 @@ std::optional<TimeStamp> parse_time_stamp(string_view cell) {
     return stamp;
   }
   std::size_t begin = colon;
-  while (begin > 0 && is_digit(text[begin - 1])) --begin;
+  while (begin > 0 && arm::is_digit(text[begin - 1])) --begin;
   string_view date = trimmed(text.substr(0, begin));
   if (date.ends_with('T') || date.ends_with('_') || date.ends_with(',')) date.remove_suffix(1);
   const auto days = days_in(trimmed(date));

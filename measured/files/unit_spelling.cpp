@@ -1,5 +1,6 @@
 #include "measured/files/unit_spelling.hpp"
 
+#include "arm/ascii.hpp"
 #include "measured/files/delimited_line.hpp"
 
 #include <algorithm>
@@ -197,7 +198,7 @@ bool has_mega(string_view text) {
                                                        "m", "g",  "strain", "deg"};
   for (std::size_t begin = 0; begin < text.size();) {
     std::size_t end = begin;
-    while (end < text.size() && is_letter(text[end])) ++end;
+    while (end < text.size() && arm::is_letter(text[end])) ++end;
     const string_view word = text.substr(begin, end - begin);
     if (word.starts_with('M') && std::ranges::count(kMegaSymbols, word.substr(1)) > 0) return true;
     begin = std::max(end, begin + 1);
@@ -216,7 +217,7 @@ class FactorReader {
     while (true) {
       skip_blanks();
       const std::size_t begin = at_;
-      while (at_ < text_.size() && is_letter(text_[at_])) ++at_;
+      while (at_ < text_.size() && arm::is_letter(text_[at_])) ++at_;
       const string_view word = find_in(words_, text_.substr(begin, at_ - begin));
       if (word.empty() || word == "1") return std::nullopt;
       const auto power = read_power();
@@ -247,13 +248,13 @@ class FactorReader {
     if (is_marked) ++at;
     const bool is_negative = at < text_.size() && text_[at] == '-';
     if (is_negative || (at < text_.size() && text_[at] == '+')) ++at;
-    if (at >= text_.size() || !is_digit(text_[at])) {
+    if (at >= text_.size() || !arm::is_digit(text_[at])) {
       if (is_marked) return std::nullopt;
       return 1;
     }
     const int power = text_[at] - '0';
     at_ = at + 1;
-    if (at_ < text_.size() && is_digit(text_[at_])) return std::nullopt;
+    if (at_ < text_.size() && arm::is_digit(text_[at_])) return std::nullopt;
     return is_negative ? -power : power;
   }
 

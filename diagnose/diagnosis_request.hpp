@@ -20,7 +20,7 @@ struct DiagnosisRequest {
   std::optional<double> time_limit_s = {};
   int most_causes = SelectionOptions{}.most_causes;
   std::string predictor = "auto";  ///< or a PredictorKind
-  std::string search = "staged";  ///< or "ranked" (SearchMethod)
+  std::string search = "staged";   ///< or "ranked" (SearchMethod)
   arm::OptionSpelling spelled = arm::on_command_line;
 };
 
@@ -32,8 +32,7 @@ Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock:
 Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request,
                          const Deadline& deadline = {});
 
-/// Throws InputError for a number of causes below 1 an unknown predictor and an
-/// unknown search.
+/// Throws InputError for a number of causes below 1, an unknown predictor and an unknown search.
 void require_valid(const DiagnosisRequest& request);
 
 /// The diagnosis that is asked for. Throws InputError as `require_valid`, for an effect that is

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 

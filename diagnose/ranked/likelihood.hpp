@@ -30,7 +30,7 @@ class Likelihood {
   static constexpr double kDiscrepancy = 3e-3;
   static constexpr double kStatedWeight = 4.0;
 
-  /// Of the `runs` of the problem, which must outlive the object.
+  /// Takes the `runs` of the problem, which must outlive the object.
   Likelihood(const Problem& problem, std::vector<bool> runs);
 
   const Problem& problem() const { return problem_; }

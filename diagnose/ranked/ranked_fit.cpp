@@ -41,8 +41,11 @@ class Places {
   bool is_bounded(Index i) const {
     return i >= unbounded_ && !is_periodic_[static_cast<std::size_t>(i - unbounded_)];
   }
-  double bounded(Index i, double place) const {
-    return is_bounded(i) ? std::clamp(place, 0.0, 1.0) : place;
+  VectorXd bounded(VectorXd places) const {
+    for (Index i = 0; i < places.size(); ++i) {
+      if (is_bounded(i)) places(i) = std::clamp(places(i), 0.0, 1.0);
+    }
+    return places;
   }
 
  private:
@@ -119,8 +122,7 @@ RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const
                      const RankedFitOptions& options) {
   const Places places(start);
   RankedFit made{.candidate = start};
-  VectorXd here = start.coordinates();
-  for (Index i = 0; i < here.size(); ++i) here(i) = places.bounded(i, here(i));
+  VectorXd here = places.bounded(start.coordinates());
   made.candidate.put(here);
   work.go_on();
   auto residuals = likelihood.problem().residuals(made.candidate, likelihood.runs());
@@ -142,8 +144,7 @@ RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const
       const VectorXd step = damped_step(normal, gradient, here, places, damping);
       const double expected = -(2.0 * gradient + normal * step).dot(step);
       if (expected < options.tolerance) break;
-      VectorXd there = here + step;
-      for (Index i = 0; i < there.size(); ++i) there(i) = places.bounded(i, there(i));
+      const VectorXd there = places.bounded(here + step);
       work.go_on();
       const Candidate tried = places.at(there);
       auto left = likelihood.problem().residuals(tried, likelihood.runs());

@@ -29,8 +29,11 @@ class Rung {
  public:
   Rung(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
        const RankedOptions& options, const ReportedWork& work)
-      : likelihood_(problem, problem.estimation_runs()), options_(options), work_(work) {
-    for (const Hypothesis& one : hypotheses) hypotheses_.push_back(&one);
+      : likelihood_(problem, problem.estimation_runs()),
+        hypotheses_(hypotheses),
+        options_(options),
+        work_(work) {
+    for (const Hypothesis& one : hypotheses) all_.push_back(&one);
   }
 
   /// Fits the sets of the beam to these data.
@@ -47,7 +50,7 @@ class Rung {
     for (bool falls = true; falls;) {
       std::vector<Start> starts;
       for (const RankedFit& base : beam) {
-        for (Start& one : starts_beside(base, hypotheses_, options_.looks)) {
+        for (Start& one : starts_beside(base, all_, options_.looks)) {
           if (met_.insert(one.candidate.labels()).second) starts.push_back(std::move(one));
         }
       }
@@ -116,7 +119,8 @@ class Rung {
     std::vector<Start> swaps;
     for (std::size_t i = 0; i < effects.size(); ++i) {
       if (!tried[i].is_possible()) continue;
-      for (RankedFit& limit : material_fits(starts_beside(tried[i], limits_of(effects[i]), kAll))) {
+      for (RankedFit& limit :
+           material_fits(starts_beside(tried[i], limits_of(effects[i], hypotheses_), kAll))) {
         if (!is_material(limit.lines, best)) return std::move(limit);
       }
       std::ranges::move(starts_beside(tried[i], all_but(effects[i]), options_.swaps),
@@ -129,24 +133,18 @@ class Rung {
     return better.score < best.score ? std::optional(std::move(better)) : std::nullopt;
   }
 
-  std::vector<const Hypothesis*> limits_of(const Hypothesis& effect) const {
-    std::vector<const Hypothesis*> limits;
-    std::ranges::copy_if(hypotheses_, std::back_inserter(limits),
-                         [&](const Hypothesis* one) { return effect.contains(one->effect); });
-    return limits;
-  }
-
   std::vector<const Hypothesis*> all_but(const Hypothesis& effect) const {
     std::vector<const Hypothesis*> others;
-    std::ranges::copy_if(hypotheses_, std::back_inserter(others),
+    std::ranges::copy_if(all_, std::back_inserter(others),
                          [&](const Hypothesis* one) { return one->label() != effect.label(); });
     return others;
   }
 
   Likelihood likelihood_;
+  const std::vector<Hypothesis>& hypotheses_;
   const RankedOptions& options_;
   const ReportedWork& work_;
-  std::vector<const Hypothesis*> hypotheses_;
+  std::vector<const Hypothesis*> all_;  ///< hypotheses_
   std::set<Labels> met_;
 };
 

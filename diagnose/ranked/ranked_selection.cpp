@@ -31,21 +31,24 @@ std::vector<RankedFit> without_each(const Likelihood& likelihood, const RankedFi
   return made;
 }
 
-/// Drops the effects that validation runs are predicted better without.
-void drop_by_validation(const Likelihood& likelihood, RankedFit& best, const ReportedWork& work) {
+/// Drops the effects that validation runs are predicted better without. Returns the fits of the
+/// rest without each of its effects.
+std::vector<RankedFit> drop_by_validation(const Likelihood& likelihood, RankedFit& best,
+                                          const ReportedWork& work) {
   const Likelihood held_out(likelihood.problem(), likelihood.problem().validation_runs());
-  while (!best.candidate.effects.empty()) {
-    const double with = held_out_cost(held_out, best.candidate);
+  double cost = held_out_cost(held_out, best.candidate);
+  while (true) {
     std::vector<RankedFit> without = without_each(likelihood, best, work);
-    const auto least = std::ranges::min_element(
-        without, {}, [&](const RankedFit& one) { return held_out_cost(held_out, one.candidate); });
-    if (!(held_out_cost(held_out, least->candidate) < with)) break;
-    best = std::move(*least);
+    if (without.empty() || !likelihood.problem().has_validation_runs()) return without;
+    std::vector<double> costs;
+    for (const RankedFit& one : without) {
+      costs.push_back(held_out_cost(held_out, one.candidate));
+    }
+    const auto least = std::ranges::min_element(costs);
+    if (!(*least < cost)) return without;
+    cost = *least;
+    best = std::move(without[static_cast<std::size_t>(least - costs.begin())]);
   }
-}
-
-bool has_validation(const Problem& problem) {
-  return std::ranges::count(problem.validation_runs(), true) > 0;
 }
 
 /// As the report wants it: with the derivatives of the residuals.
@@ -69,8 +72,7 @@ void search(const SelectionTask& task, const Problem& problem, ReportedWork& wor
   const Likelihood likelihood(problem, problem.estimation_runs());
   std::vector<RankedFit> others;
   try {
-    if (has_validation(problem)) drop_by_validation(likelihood, best, work);
-    others = without_each(likelihood, best, work);
+    others = drop_by_validation(likelihood, best, work);
     for (std::size_t i = 0; i < best.candidate.effects.size(); ++i) {
       const Candidate alone =
           problem.as_filed().with(best.candidate.effects[i], best.candidate.values_of(i));

@@ -79,8 +79,12 @@ Problem::Problem(std::shared_ptr<const Experiment> experiment, const ProblemOpti
   own_experiment_ = std::move(experiment);
 }
 
+bool Problem::has_validation_runs() const {
+  return std::ranges::count(validation_runs_, true) > 0;
+}
+
 const std::vector<bool>& Problem::judged_runs() const {
-  return std::ranges::count(validation_runs_, true) > 0 ? validation_runs_ : estimation_runs_;
+  return has_validation_runs() ? validation_runs_ : estimation_runs_;
 }
 
 double Problem::judged_error(const arm::Arm& arm) const {

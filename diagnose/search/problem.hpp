@@ -41,6 +41,7 @@ class Problem {
   const Predictor& predictor() const { return predictor_; }
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
+  bool has_validation_runs() const;
   /// What a choice between models is judged by: the validation runs, or without any those for
   /// estimation.
   const std::vector<bool>& judged_runs() const;

@@ -27,7 +27,7 @@ enum class Likely {
   rare,      ///< a fault, or a device that whoever wrote the file would have known
 };
 
-/// The probability of that.
+/// Returns the probability of an effect with this prior.
 constexpr double probability_of(Likely prior) {
   switch (prior) {
     case Likely::common:

@@ -27,6 +27,10 @@ class RankedTest : public testing::Test {
   const Hypothesis& hypothesis(const std::string& effect) const {
     return *std::ranges::find(hypotheses_, effect, &Hypothesis::effect);
   }
+  double cost_of(const Candidate& candidate) const {
+    return likelihood_.cost(
+        likelihood_.lines(*problem_.residuals(candidate, problem_.estimation_runs())));
+  }
   Candidate friction(double torque_N_m) const {
     return problem_.as_filed().with(hypothesis("coulomb_friction"), {torque_N_m});
   }
@@ -81,9 +85,7 @@ TEST_F(RankedTest, WeightsAreTheDerivativesOfTheCost) {
 TEST_F(RankedTest, CostRanksWhateverTheNoiseIs) {
   // With half of the friction noise is far from reached, and it is better than none.
   const auto cost = [&](double torque_N_m) {
-    const Candidate both = friction(torque_N_m).with(hypothesis("payload_mass"), {kMass_kg});
-    return likelihood_.cost(
-        likelihood_.lines(*problem_.residuals(both, problem_.estimation_runs())));
+    return cost_of(friction(torque_N_m).with(hypothesis("payload_mass"), {kMass_kg}));
   };
   EXPECT_LT(cost(kCoulomb_N_m), cost(0.5 * kCoulomb_N_m));
   EXPECT_LT(cost(0.5 * kCoulomb_N_m), cost(0.0));
@@ -97,9 +99,7 @@ TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
   for (const double step : {-0.01, 0.01}) {
     Candidate beside = fit.candidate;
     beside.put(places.array() + step);
-    const double cost = likelihood_.cost(
-        likelihood_.lines(*problem_.residuals(beside, problem_.estimation_runs())));
-    EXPECT_GT(cost, fit.cost - RankedFitOptions{}.tolerance) << step;
+    EXPECT_GT(cost_of(beside), fit.cost - RankedFitOptions{}.tolerance) << step;
   }
 }
 

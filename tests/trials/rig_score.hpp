@@ -10,7 +10,7 @@ inline constexpr double kRigErrorOverFloor = 1.5;
 
 /// How an answer to a rig compares with the truth.
 struct RigScore {
-  /// Of the kLeadingCauses, those that a named effect stands for: it is the cause, on the right
+  /// The number of kLeadingCauses that a named effect stands for: it is the cause, on the right
   /// sensor; or is of its family, on the same sensor or on none as the cause; or is said to be
   /// confusable with it in a class of at most kLargestClass.
   int leading_named = 0;

@@ -12,7 +12,7 @@ inline constexpr std::size_t kLeadingCauses = 3;
 
 /// The part of a truth that rigs alone have.
 struct RigTruth {
-  /// By the name of a hidden cause what its absence costs: the mean NRMSE of a simulation that
+  /// The cost of the absence of each hidden cause, by its name: the mean NRMSE of a simulation that
   /// knows all the others, in data without noise. One that knows them all has none.
   std::map<std::string, double> costs;
   double counts_per_turn = 0.0;  ///< of the encoder; 0 where the hub angle is not recorded

@@ -1,5 +1,6 @@
 #include "arm/decimal_comma.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 
@@ -16,10 +17,6 @@ namespace {
 using std::string_view;
 
 constexpr string_view kDigits = "0123456789";
-
-bool is_digit(char c) {
-  return kDigits.find(c) != string_view::npos;
-}
 
 /// Digits, perhaps with an exponent: 05, 5e-3.
 bool are_decimals(string_view item) {

@@ -1,6 +1,7 @@
 #include "export/fmu/fmu_export.hpp"
 
 #include "arm/arm_keys.hpp"
+#include "arm/ascii.hpp"
 #include "export/fmu/embedded_files.hpp"
 #include "export/fmu/xml_text.hpp"
 #include "export/fmu/zip_archive.hpp"
@@ -82,11 +83,9 @@ std::string page(const FmuDescription& fmu) {
 }  // namespace
 
 std::string identifier_of(const std::string& text) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   std::string made;
-  for (const char c : text) made += is_letter(c) || is_digit(c) ? c : '_';
-  if (made.empty() || !is_letter(made.front())) made.insert(0, "arm_");
+  for (const char c : text) made += arm::is_letter(c) || arm::is_digit(c) ? c : '_';
+  if (made.empty() || !arm::is_letter(made.front())) made.insert(0, "arm_");
   return made;
 }
 

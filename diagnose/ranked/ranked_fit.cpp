@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@ constexpr double kPlaceStep = 1e-4;
 constexpr double kLongestStep = 0.35;
 constexpr double kFirstDamping = 1e-3;
 constexpr double kMostDamping = 1e6;
+/// A step that gains less than this part of what it promises has derivatives that are too old.
+constexpr double kPoorGain = 0.25;
 
 /// The places of a candidate, and which of them end at 0 and 1.
 class Places {
@@ -54,21 +57,87 @@ class Places {
   std::vector<bool> is_periodic_;
 };
 
-/// The lines by the places, by difference quotients inwards; a column that cannot be computed is 0.
-MatrixXd jacobian_at(const Likelihood& likelihood, const Places& places, const VectorXd& here,
-                     const VectorXd& residuals, const ReportedWork& work) {
-  MatrixXd jacobian = MatrixXd::Zero(residuals.size(), here.size());
-  in_parallel(static_cast<std::size_t>(here.size()), [&](std::size_t k) {
-    work.go_on();
-    const auto i = static_cast<Index>(k);
-    VectorXd beside = here;
-    const double step = here(i) < 0.5 ? kPlaceStep : -kPlaceStep;
-    beside(i) += step;
-    const auto moved = likelihood.problem().residuals(places.at(beside), likelihood.runs());
-    if (moved) jacobian.col(i) = likelihood.lines((*moved - residuals) / step);
-  });
-  return jacobian;
-}
+/// The derivatives of the lines by the places of a candidate: difference quotients, and between
+/// these the secant update of [Broyden1965].
+class Derivatives {
+ public:
+  Derivatives(const Likelihood& likelihood, const Places& places, const ReportedWork& work)
+      : likelihood_(likelihood), places_(places), work_(work) {}
+
+  const MatrixXd& matrix() const { return matrix_; }
+  bool are_exact() const { return are_exact_; }
+
+  /// Computes all of them, at `here` with these residuals.
+  void compute(const VectorXd& here, const VectorXd& residuals) {
+    matrix_ = MatrixXd::Zero(residuals.size(), here.size());
+    std::vector<Index> all(static_cast<std::size_t>(here.size()));
+    std::iota(all.begin(), all.end(), Index{0});
+    compute(all, here, residuals);
+    are_exact_ = true;
+  }
+
+  /// Takes those by nuisances and by the effects that `base` has as well, and computes the others.
+  void begin(const RankedFit& base, const Candidate& start, const VectorXd& here,
+             const VectorXd& residuals) {
+    matrix_ = MatrixXd::Zero(residuals.size(), here.size());
+    std::vector<Index> unknown;
+    const std::vector<Index> columns = columns_in(base.candidate, start);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto column = static_cast<Index>(i);
+      if (columns[i] < 0) {
+        unknown.push_back(column);
+      } else {
+        matrix_.col(column) = base.jacobian.col(columns[i]);
+      }
+    }
+    compute(unknown, here, residuals);
+    are_exact_ = false;
+  }
+
+  void update(const VectorXd& step, const VectorXd& change) {
+    const VectorXd missed = change - matrix_ * step;
+    matrix_ += missed * step.transpose() / step.squaredNorm();
+    are_exact_ = false;
+  }
+
+ private:
+  /// Inwards; a column that cannot be computed is 0.
+  void compute(const std::vector<Index>& columns, const VectorXd& here, const VectorXd& residuals) {
+    in_parallel(columns.size(), [&](std::size_t k) {
+      work_.go_on();
+      const Index i = columns[k];
+      VectorXd beside = here;
+      const double step = here(i) < 0.5 ? kPlaceStep : -kPlaceStep;
+      beside(i) += step;
+      const auto moved = likelihood_.problem().residuals(places_.at(beside), likelihood_.runs());
+      if (moved) matrix_.col(i) = likelihood_.lines((*moved - residuals) / step);
+    });
+  }
+
+  /// The column of `base` of each coordinate of `start`; -1 without one.
+  static std::vector<Index> columns_in(const Candidate& base, const Candidate& start) {
+    std::vector<Index> columns(start.nuisances.size());
+    std::iota(columns.begin(), columns.end(), Index{0});
+    for (const Hypothesis& effect : start.effects) {
+      Index at = std::ssize(base.nuisances);
+      const auto own = std::ranges::find_if(base.effects, [&](const Hypothesis& one) {
+        const bool is_it = one.label() == effect.label();
+        if (!is_it) at += std::ssize(one.parameters);
+        return is_it;
+      });
+      for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
+        columns.push_back(own == base.effects.end() ? -1 : at++);
+      }
+    }
+    return columns;
+  }
+
+  const Likelihood& likelihood_;
+  const Places& places_;
+  const ReportedWork& work_;
+  MatrixXd matrix_;
+  bool are_exact_ = false;
+};
 
 /// The damped Gauss-Newton step of -2 ln L, places at a bound that it would leave held there.
 VectorXd damped_step(const MatrixXd& normal, const VectorXd& gradient, const VectorXd& here,
@@ -119,7 +188,7 @@ double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorX
 }
 
 RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
-                     const RankedFitOptions& options) {
+                     const RankedFitOptions& options, const RankedFit* base) {
   const Places places(start);
   RankedFit made{.candidate = start};
   VectorXd here = places.bounded(start.coordinates());
@@ -130,44 +199,55 @@ RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const
   made.residuals = *std::move(residuals);
   made.lines = likelihood.lines(made.residuals);
   made.cost = likelihood.cost(made.lines);
-  double damping = kFirstDamping;
-  for (int steps = 0;; ++steps) {
-    made.jacobian = jacobian_at(likelihood, places, here, made.residuals, work);
-    const VectorXd weights = likelihood.weights(made.lines);
-    made.score = made.cost + price(made.candidate, made.jacobian, weights);
-    if (here.size() == 0 || made.converged || steps == options.most_steps) break;
-    const MatrixXd weighted = weights.asDiagonal() * made.jacobian;
-    const MatrixXd normal = made.jacobian.transpose() * weighted;
-    const VectorXd gradient = weighted.transpose() * made.lines;
-    bool has_moved = false;
-    while (!has_moved && damping < kMostDamping) {
-      const VectorXd step = damped_step(normal, gradient, here, places, damping);
-      const double expected = -(2.0 * gradient + normal * step).dot(step);
-      if (expected < options.tolerance) break;
-      const VectorXd there = places.bounded(here + step);
-      work.go_on();
-      const Candidate tried = places.at(there);
-      auto left = likelihood.problem().residuals(tried, likelihood.runs());
-      const VectorXd lines = left ? likelihood.lines(*left) : VectorXd();
-      const double cost = left ? likelihood.cost(lines) : made.cost;
-      if (!(cost < made.cost)) {
-        damping *= 8.0;
-        continue;
-      }
-      made.converged = made.cost - cost < options.tolerance;
-      has_moved = true;
-      damping /= 5.0;
-      here = there;
-      made.candidate = tried;
-      made.residuals = *std::move(left);
-      made.lines = lines;
-      made.cost = cost;
-    }
-    if (!has_moved) {
-      made.converged = true;
-      break;
-    }
+  Derivatives derivatives(likelihood, places, work);
+  if (base != nullptr) {
+    derivatives.begin(*base, made.candidate, here, made.residuals);
+  } else {
+    derivatives.compute(here, made.residuals);
   }
+  double damping = kFirstDamping;
+  for (int steps = 0; here.size() > 0 && steps < options.most_steps && !made.converged;) {
+    const MatrixXd weighted = likelihood.weights(made.lines).asDiagonal() * derivatives.matrix();
+    const MatrixXd normal = derivatives.matrix().transpose() * weighted;
+    const VectorXd gradient = weighted.transpose() * made.lines;
+    const VectorXd step = damped_step(normal, gradient, here, places, damping);
+    const double expected = -(2.0 * gradient + normal * step).dot(step);
+    if (!(expected > options.tolerance) || damping > kMostDamping) {
+      made.converged = derivatives.are_exact() || options.takes_secants;
+      if (!made.converged) derivatives.compute(here, made.residuals);
+      continue;
+    }
+    ++steps;
+    const VectorXd there = places.bounded(here + step);
+    work.go_on();
+    const Candidate tried = places.at(there);
+    auto left = likelihood.problem().residuals(tried, likelihood.runs());
+    const VectorXd lines = left ? likelihood.lines(*left) : VectorXd();
+    const double cost = left ? likelihood.cost(lines) : made.cost;
+    if (!(cost < made.cost)) {
+      damping *= 8.0;
+      if (!derivatives.are_exact() && !options.takes_secants) {
+        derivatives.compute(here, made.residuals);
+      }
+      continue;
+    }
+    damping /= 5.0;
+    const double gain = made.cost - cost;
+    derivatives.update(there - here, lines - made.lines);
+    here = there;
+    made.candidate = tried;
+    made.residuals = *std::move(left);
+    made.lines = lines;
+    made.cost = cost;
+    if (gain < kPoorGain * expected) derivatives.compute(here, made.residuals);
+  }
+  if (!derivatives.are_exact() && !options.takes_secants) {
+    derivatives.compute(here, made.residuals);
+  }
+  made.converged = made.converged || here.size() == 0;
+  made.jacobian = derivatives.matrix();
+  made.score =
+      made.cost + price(made.candidate, made.jacobian, likelihood.weights(made.lines));
   return made;
 }
 

@@ -38,15 +38,18 @@ double price(const Candidate& candidate, const Eigen::MatrixXd& jacobian,
              const Eigen::VectorXd& weights);
 
 struct RankedFitOptions {
-  int most_steps = 20;
+  int most_steps = 30;
   /// Converged where a step is expected to lower -2 ln L by less than this.
   double tolerance = 0.05;
+  /// Ends with secants in the place of derivatives, as few of which as possible are computed.
+  bool takes_secants = false;
 };
 
 /// Returns the fit nearest to `start`: iteratively reweighted least squares with the damping of
-/// [Marquardt1963], places from 0 to 1. Not `is_possible` where the start cannot be
-/// computed. Throws Cancelled where the work is cancelled.
+/// [Marquardt1963] and secant updates of the derivatives [Broyden1965], places from 0 to 1. It
+/// begins with the derivatives that `base` has of the same effects. Not `is_possible` where the
+/// start cannot be computed. Throws Cancelled where the work is cancelled.
 RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
-                     const RankedFitOptions& options = {});
+                     const RankedFitOptions& options = {}, const RankedFit* base = nullptr);
 
 }  // namespace flexarm::diagnose

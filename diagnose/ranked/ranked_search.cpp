@@ -1,12 +1,11 @@
 #include "diagnose/ranked/ranked_search.hpp"
 
 #include "diagnose/parallel.hpp"
-#include "diagnose/ranked/score_test.hpp"
+#include "diagnose/ranked/moves.hpp"
 #include "diagnose/search/coarse.hpp"
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -20,9 +19,9 @@ namespace {
 using Eigen::VectorXd;
 using Labels = std::set<std::string>;
 
-constexpr RankedFitOptions kLook = {.most_steps = 6, .tolerance = 0.5};
-constexpr RankedFitOptions kFit = {};
-constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+constexpr RankedFitOptions kLook = {.most_steps = 10, .tolerance = 0.5, .takes_secants = true};
+/// A prediction may be this part of what a fit then finds.
+constexpr double kDoubt = 0.5;
 
 /// One rung of the ladder: a problem with part of the data, or all.
 class Rung {
@@ -32,120 +31,100 @@ class Rung {
       : likelihood_(problem, problem.estimation_runs()),
         hypotheses_(hypotheses),
         options_(options),
-        work_(work) {
-    for (const Hypothesis& one : hypotheses) all_.push_back(&one);
-  }
+        work_(work) {}
 
-  /// Fits the sets of the beam to these data.
-  void refit(std::vector<RankedFit>& beam) {
-    in_parallel(beam.size(), [&](std::size_t i) { beam[i] = fitted(beam[i].candidate, kFit); });
-    met_.clear();
+  /// Fits the sets of the beam to these data, and replaces them by neighbours while the best score
+  /// falls.
+  void climb(std::vector<RankedFit>& beam, std::size_t width) {
+    in_parallel(beam.size(), [&](std::size_t i) { beam[i] = fitted(beam[i].candidate); });
     for (const RankedFit& one : beam) met_.insert(one.candidate.labels());
-    std::ranges::stable_sort(beam, {}, &RankedFit::score);
-  }
-
-  /// Adds effects to the best `width` sets while the best score falls.
-  void grow(std::vector<RankedFit>& beam, std::size_t width) {
-    beam.resize(std::min(beam.size(), width));
+    keep_best(beam, width);
     for (bool falls = true; falls;) {
-      std::vector<Start> starts;
-      for (const RankedFit& base : beam) {
-        for (Start& one : starts_beside(base, all_, options_.looks)) {
-          if (met_.insert(one.candidate.labels()).second) starts.push_back(std::move(one));
-        }
-      }
       const double before = beam.front().score;
-      std::ranges::move(material_fits(starts), std::back_inserter(beam));
-      std::ranges::stable_sort(beam, {}, &RankedFit::score);
-      beam.resize(std::min(beam.size(), width));
+      std::vector<RankedFit> neighbours;
+      for (const RankedFit& base : beam) {
+        if (!expanded_.insert(base.candidate.labels()).second) continue;
+        std::ranges::move(neighbours_of(base), std::back_inserter(neighbours));
+      }
+      std::ranges::move(neighbours, std::back_inserter(beam));
+      keep_best(beam, width);
       falls = beam.front().score < before;
     }
-  }
-
-  /// Drops effects of the best set and swaps them for others, while that lowers its score, and
-  /// drops those that are not material.
-  void improve(RankedFit& best) {
-    best = fitted(best.candidate, kFit);
-    while (auto better = better_neighbour(best)) best = *std::move(better);
+    beam.front() = fitted(beam.front().candidate);
+    while (auto simpler = simpler_than(beam.front())) beam.front() = *std::move(simpler);
   }
 
  private:
-  /// A set to fit, with the lines of the set without its last effect.
-  struct Start {
-    Candidate candidate;
-    VectorXd lines_without;
-  };
+  static void keep_best(std::vector<RankedFit>& beam, std::size_t width) {
+    std::ranges::stable_sort(beam, {}, &RankedFit::score);
+    beam.resize(std::min(beam.size(), width));
+  }
 
-  RankedFit fitted(const Candidate& start, const RankedFitOptions& options) const {
-    return ranked_fit(likelihood_, start, work_, options);
+  RankedFit fitted(const Candidate& start) const { return ranked_fit(likelihood_, start, work_); }
+  RankedFit look(const Move& move, const RankedFit& base) const {
+    return ranked_fit(likelihood_, move.of(base.candidate), work_, kLook, &base);
+  }
+
+  /// Fits of the moves that are predicted to lower the score most, to sets that were not met
+  /// before.
+  std::vector<RankedFit> neighbours_of(const RankedFit& base) {
+    std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
+    std::erase_if(moves, [&](const Move& one) {
+      const bool is_material = one.added == nullptr || one.drop >= kDoubt * options_.least_drop;
+      return !(one.score < base.score) || !is_material;
+    });
+    std::erase_if(moves, [&](const Move& one) {
+      return !met_.insert(one.of(base.candidate).labels()).second;
+    });
+    moves.resize(std::min(moves.size(), options_.looks));
+    std::vector<RankedFit> fits(moves.size());
+    in_parallel(moves.size(), [&](std::size_t i) { fits[i] = look(moves[i], base); });
+    std::vector<RankedFit> kept;
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      const bool is_addition = moves[i].added != nullptr && !moves[i].dropped;
+      const bool is_kept = fits[i].is_possible() &&
+                           (!is_addition || is_material(base.lines, fits[i]));
+      if (is_kept) kept.push_back(std::move(fits[i]));
+    }
+    return kept;
   }
 
   bool is_material(const VectorXd& lines_without, const RankedFit& with) const {
     return likelihood_.largest_drop(lines_without, with.lines) >= options_.least_drop;
   }
 
-  std::vector<Start> starts_beside(const RankedFit& base,
-                                   const std::vector<const Hypothesis*>& others,
-                                   std::size_t most) const {
-    std::vector<Start> starts;
-    for (const RankedAddition& one : ranked_additions(likelihood_, base, others, most, work_)) {
-      starts.push_back({base.candidate.with(*one.effect, one.values), base.lines});
+  /// The best set without an effect that is not material, or with the limit of one that is not
+  /// beside it; empty where all are.
+  std::optional<RankedFit> simpler_than(const RankedFit& best) const {
+    const std::vector<Hypothesis> limits = limits_in(best);
+    for (const Move& move : moves_of(likelihood_, best, limits, work_)) {
+      const bool is_drop = move.added == nullptr && move.drop < options_.least_drop / kDoubt;
+      if (!is_drop && !is_limit(move, best)) continue;
+      RankedFit simpler = ranked_fit(likelihood_, move.of(best.candidate), work_, {}, &best);
+      if (simpler.is_possible() && !is_material(simpler.lines, best)) return simpler;
     }
-    return starts;
+    return std::nullopt;
   }
 
-  /// Fits of a few steps, those whose last effect is material.
-  std::vector<RankedFit> material_fits(const std::vector<Start>& starts) const {
-    std::vector<RankedFit> fits(starts.size());
-    in_parallel(starts.size(),
-                [&](std::size_t i) { fits[i] = fitted(starts[i].candidate, kLook); });
-    std::vector<RankedFit> material;
-    for (std::size_t i = 0; i < fits.size(); ++i) {
-      const bool is_kept = fits[i].is_possible() && is_material(starts[i].lines_without, fits[i]);
-      if (is_kept) material.push_back(std::move(fits[i]));
+  std::vector<Hypothesis> limits_in(const RankedFit& set) const {
+    std::vector<Hypothesis> limits;
+    for (const Hypothesis& effect : set.candidate.effects) {
+      for (const Hypothesis* limit : limits_of(effect, hypotheses_)) limits.push_back(*limit);
     }
-    return material;
+    return limits;
   }
 
-  /// The best set with one effect less or another in its place; empty if none is better.
-  std::optional<RankedFit> better_neighbour(const RankedFit& best) const {
-    const std::vector<Hypothesis>& effects = best.candidate.effects;
-    std::vector<RankedFit> tried(effects.size());
-    in_parallel(effects.size(),
-                [&](std::size_t i) { tried[i] = fitted(best.candidate.without(i), kLook); });
-    for (RankedFit& one : tried) {
-      if (one.is_possible() && !is_material(one.lines, best)) return std::move(one);
-    }
-    std::vector<Start> swaps;
-    for (std::size_t i = 0; i < effects.size(); ++i) {
-      if (!tried[i].is_possible()) continue;
-      for (RankedFit& limit :
-           material_fits(starts_beside(tried[i], limits_of(effects[i], hypotheses_), kAll))) {
-        if (!is_material(limit.lines, best)) return std::move(limit);
-      }
-      std::ranges::move(starts_beside(tried[i], all_but(effects[i]), options_.swaps),
-                        std::back_inserter(swaps));
-    }
-    std::ranges::move(material_fits(swaps), std::back_inserter(tried));
-    const auto least = std::ranges::min_element(tried, {}, &RankedFit::score);
-    if (least == tried.end() || !(least->score < best.score)) return std::nullopt;
-    RankedFit better = fitted(least->candidate, kFit);
-    return better.score < best.score ? std::optional(std::move(better)) : std::nullopt;
-  }
-
-  std::vector<const Hypothesis*> all_but(const Hypothesis& effect) const {
-    std::vector<const Hypothesis*> others;
-    std::ranges::copy_if(all_, std::back_inserter(others),
-                         [&](const Hypothesis* one) { return one->label() != effect.label(); });
-    return others;
+  static bool is_limit(const Move& move, const RankedFit& set) {
+    return move.added != nullptr && move.dropped &&
+           set.candidate.effects[*move.dropped].contains(move.added->effect);
   }
 
   Likelihood likelihood_;
   const std::vector<Hypothesis>& hypotheses_;
   const RankedOptions& options_;
   const ReportedWork& work_;
-  std::vector<const Hypothesis*> all_;  ///< hypotheses_
-  std::set<Labels> met_;
+  std::set<Labels> met_;       ///< sets that were fitted
+  std::set<Labels> expanded_;  ///< whose neighbours were
 };
 
 /// Samples of the longest `time` run for estimation; 0 without any.
@@ -168,11 +147,6 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
   std::vector<RankedFit> beam(1);
   beam.front().candidate = problem.as_filed();
   std::size_t width = options.beam;
-  const auto climb = [&](Rung& rung) {
-    rung.refit(beam);
-    rung.grow(beam, std::exchange(width, 1));
-    rung.improve(beam.front());
-  };
   try {
     const std::size_t longest = longest_run(problem.experiment());
     for (const std::size_t samples : options.rungs) {
@@ -181,11 +155,11 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
       const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
                          {.flexible_modes = problem.predictor().flexible_modes()});
       Rung rung(part, hypotheses, options, work);
-      climb(rung);
+      rung.climb(beam, std::exchange(width, 1));
     }
     work.tell("effects on all data", 0.5);
     Rung rung(problem, hypotheses, options, work);
-    climb(rung);
+    rung.climb(beam, width);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;

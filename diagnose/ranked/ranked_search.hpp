@@ -11,8 +11,7 @@ namespace flexarm::diagnose {
 /// How far the ranked search goes.
 struct RankedOptions {
   std::size_t beam = 3;   ///< sets that grow at a time on the first rung; on others one does
-  std::size_t looks = 6;  ///< effects fitted beside each, the best by the score test
-  std::size_t swaps = 2;  ///< effects fitted in the place of each
+  std::size_t looks = 6;  ///< moves of each that are fitted, the best by prediction
   /// An effect is material where it lowers the mean square of what is left in some octave of some
   /// sensor by this part or more: an error by a factor of 1.15.
   double least_drop = 0.25;

@@ -1,5 +1,5 @@
+#include "diagnose/ranked/moves.hpp"
 #include "diagnose/ranked/ranked_search.hpp"
-#include "diagnose/ranked/score_test.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
@@ -103,16 +103,41 @@ TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
   }
 }
 
-TEST_F(RankedTest, AScoreTestRanksWhatIsHiddenFirst) {
+TEST_F(RankedTest, AFitThatBeginsWithOtherDerivativesEndsAtTheSame) {
   const RankedFit base = ranked_fit(likelihood_, friction(kCoulomb_N_m), work_);
-  std::vector<const Hypothesis*> others;
-  for (const Hypothesis& one : hypotheses_) others.push_back(&one);
-  const auto ranked = ranked_additions(likelihood_, base, others, others.size(), work_);
-  ASSERT_EQ(ranked.size(), others.size() - 1);  // without the friction
-  EXPECT_EQ(ranked.front().effect->effect, "payload_mass");
+  const Candidate start = friction(0.7 * kCoulomb_N_m).with(hypothesis("payload_mass"), {0.003});
+  const RankedFit exact = ranked_fit(likelihood_, start, work_);
+  const RankedFit begun = ranked_fit(likelihood_, start, work_, {}, &base);
+  EXPECT_TRUE(begun.converged);
+  // The tolerance of either fit, and the price of derivatives by differences.
+  EXPECT_NEAR(begun.score, exact.score, 2.0 * RankedFitOptions{}.tolerance + 0.01);
+}
+
+TEST_F(RankedTest, TheBestMoveAddsWhatIsHidden) {
+  const RankedFit base = ranked_fit(likelihood_, friction(kCoulomb_N_m), work_);
+  const std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
+  // Three effects added or in the place of the friction, and none.
+  ASSERT_EQ(moves.size(), 7u);
+  const Move& best = moves.front();
+  ASSERT_NE(best.added, nullptr);
+  EXPECT_EQ(best.added->effect, "payload_mass");
+  EXPECT_FALSE(best.dropped);
   // The change of a payload is nearly in proportion to it.
-  EXPECT_NEAR(ranked.front().values.front() / kMass_kg, 1.0, 0.3);
-  EXPECT_LT(ranked.front().score, base.score);
+  EXPECT_NEAR(best.values.front() / kMass_kg, 1.0, 0.3);
+  EXPECT_LT(best.score, base.score);
+}
+
+TEST_F(RankedTest, ASwapIsPredictedForTheEffectInTheWrongPlace) {
+  const Candidate wrong = friction(kCoulomb_N_m).with(hypothesis("hub_spring"), {0.1});
+  const RankedFit base = ranked_fit(likelihood_, wrong, work_);
+  const std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
+  const auto swap = std::ranges::find_if(moves, [](const Move& move) {
+    return move.dropped == 1u && move.added != nullptr && move.added->effect == "payload_mass";
+  });
+  ASSERT_NE(swap, moves.end());
+  EXPECT_LT(swap->score, base.score);
+  EXPECT_EQ(swap->of(base.candidate).labels(),
+            (std::set<std::string>{"coulomb_friction", "payload_mass"}));
 }
 
 TEST_F(RankedTest, FindsBothEffectsAndNoOther) {

@@ -1,0 +1,175 @@
+#include "diagnose/ranked/moves.hpp"
+
+#include "diagnose/parallel.hpp"
+#include "diagnose/search/refit_projection.hpp"
+#include "diagnose/search/start_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A change of less than this part of the weighted lines is rounding.
+constexpr double kRounding = 1e-6;
+
+/// The columns of `jacobian` but those by the effect at `index`.
+MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::size_t index) {
+  Index first = std::ssize(set.nuisances);
+  for (std::size_t i = 0; i < index; ++i) first += std::ssize(set.effects[i].parameters);
+  const Index count = std::ssize(set.effects[index].parameters);
+  MatrixXd made(jacobian.rows(), jacobian.cols() - count);
+  made.leftCols(first) = jacobian.leftCols(first);
+  made.rightCols(made.cols() - first) = jacobian.rightCols(made.cols() - first);
+  return made;
+}
+
+/// A set that an effect may be added to, as the weighted lines have it.
+class Ground {
+ public:
+  Ground(const Likelihood& likelihood, const Candidate& set, VectorXd lines,
+         const MatrixXd& jacobian)
+      : likelihood_(likelihood),
+        lines_(std::move(lines)),
+        weights_(likelihood.weights(lines_)),
+        roots_(weights_.cwiseSqrt()),
+        refitted_(roots_.asDiagonal() * jacobian),
+        left_(refitted_(roots_.cwiseProduct(lines_))),
+        price_(price(set, jacobian, weights_)) {}
+
+  const VectorXd& lines() const { return lines_; }
+  /// The lines that refitting leaves.
+  VectorXd left() const { return unweighted(left_); }
+  double score() const { return likelihood_.cost(left()) + price_; }
+
+  /// The move that adds an effect with which the lines change by `change` at `places`; without an
+  /// effect where that changes nothing.
+  Move adding(const Hypothesis& effect, const StartPlaces& places, const VectorXd& change) const {
+    const VectorXd refitted = refitted_(roots_.cwiseProduct(change));
+    const double squares = refitted.squaredNorm();
+    if (!(squares > kRounding * kRounding * left_.squaredNorm())) return {};
+    const auto [least, most] = sizes_of(effect, places);
+    const double size = std::clamp(-refitted.dot(left_) / squares, least, most);
+    const VectorXd predicted = unweighted(left_ + size * refitted);
+    const double parameters = static_cast<double>(effect.parameters.size());
+    const double effect_price =
+        -2.0 * std::log(effects::probability_of(effect.entry->prior)) +
+        parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
+    return {.added = &effect,
+            .values = values_at(effect, places, size),
+            .score = likelihood_.cost(predicted) + price_ + effect_price,
+            .drop = likelihood_.largest_drop(left(), predicted)};
+  }
+
+ private:
+  VectorXd unweighted(const VectorXd& weighted) const {
+    return weighted.cwiseQuotient(roots_.cwiseMax(1e-150));
+  }
+
+  const Likelihood& likelihood_;
+  VectorXd lines_;
+  VectorXd weights_;
+  VectorXd roots_;
+  RefitProjection refitted_;
+  VectorXd left_;
+  double price_;
+};
+
+/// The moves of one set.
+class Neighbourhood {
+ public:
+  Neighbourhood(const Likelihood& likelihood, const RankedFit& base, const ReportedWork& work)
+      : likelihood_(likelihood), base_(base), work_(work) {
+    const Candidate& set = base.candidate;
+    whole_ = std::make_unique<Ground>(likelihood, set, base.lines, base.jacobian);
+    without_.resize(set.effects.size());
+    in_parallel(without_.size(), [&](std::size_t i) {
+      const Candidate rest = set.without(i);
+      if (auto lines = lines_of(rest)) {
+        without_[i] = std::make_unique<Ground>(likelihood, rest, *std::move(lines),
+                                               without_effect(base.jacobian, set, i));
+      }
+    });
+  }
+
+  std::vector<Move> drops() const {
+    std::vector<Move> made;
+    for (std::size_t i = 0; i < without_.size(); ++i) {
+      if (!without_[i]) continue;
+      made.push_back({.dropped = i,
+                      .score = without_[i]->score(),
+                      .drop = likelihood_.largest_drop(without_[i]->left(), base_.lines)});
+    }
+    return made;
+  }
+
+  /// The best moves with an effect added: to the whole set, and in the place of each of its effects.
+  std::vector<Move> with(const Hypothesis& effect) const {
+    std::vector<Move> best(without_.size() + 1);
+    const Candidate& set = base_.candidate;
+    const auto own = std::ranges::find(set.effects, effect.effect, &Hypothesis::effect);
+    if (own != set.effects.end() && own->label() == effect.label()) return {};
+    const std::size_t replaced = static_cast<std::size_t>(own - set.effects.begin());
+    const bool is_replacing = own != set.effects.end();  // the same effect on another sensor
+    if (is_replacing && !without_[replaced]) return {};
+    const Candidate beside = is_replacing ? set.without(replaced) : set;
+    const VectorXd& lines = is_replacing ? without_[replaced]->lines() : whole_->lines();
+    for (const StartPlaces& places : samples_of(effect)) {
+      const auto moved = lines_of(beside.with(effect, effects::values_at(effect.parameters, places)));
+      if (!moved) continue;
+      const VectorXd change = *moved - lines;
+      for (std::size_t i = 0; i <= without_.size(); ++i) {
+        const bool is_swap = i < without_.size();
+        if ((is_swap && !without_[i]) || (is_replacing && i != replaced)) continue;
+        Move move = (is_swap ? *without_[i] : *whole_).adding(effect, places, change);
+        if (is_swap) move.dropped = i;
+        const bool is_better = best[i].added == nullptr || move.score < best[i].score;
+        if (move.added != nullptr && is_better) best[i] = std::move(move);
+      }
+    }
+    std::erase_if(best, [](const Move& one) { return one.added == nullptr; });
+    return best;
+  }
+
+ private:
+  std::optional<VectorXd> lines_of(const Candidate& candidate) const {
+    work_.go_on();
+    const auto residuals = likelihood_.problem().residuals(candidate, likelihood_.runs());
+    if (!residuals) return std::nullopt;
+    return likelihood_.lines(*residuals);
+  }
+
+  const Likelihood& likelihood_;
+  const RankedFit& base_;
+  const ReportedWork& work_;
+  std::unique_ptr<Ground> whole_;
+  std::vector<std::unique_ptr<Ground>> without_;  ///< one an effect; null where there is no arm
+};
+
+}  // namespace
+
+Candidate Move::of(const Candidate& set) const {
+  const Candidate rest = dropped ? set.without(*dropped) : set;
+  return added != nullptr ? rest.with(*added, values) : rest;
+}
+
+std::vector<Move> moves_of(const Likelihood& likelihood, const RankedFit& base,
+                           const std::vector<Hypothesis>& others, const ReportedWork& work) {
+  const Neighbourhood neighbourhood(likelihood, base, work);
+  std::vector<std::vector<Move>> with_each(others.size());
+  in_parallel(others.size(), [&](std::size_t i) { with_each[i] = neighbourhood.with(others[i]); });
+  std::vector<Move> moves = neighbourhood.drops();
+  for (auto& with_one : with_each) std::ranges::move(with_one, std::back_inserter(moves));
+  std::ranges::stable_sort(moves, {}, &Move::score);
+  return moves;
+}
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "diagnose/ranked/ranked_fit.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// A change of a set by one move: an effect added, one dropped, or both, which is a swap.
+struct Move {
+  std::optional<std::size_t> dropped = {};  ///< index of the effects of the set
+  const Hypothesis* added = nullptr;
+  std::vector<double> values = {};  ///< of the added effect, to begin a fit with
+  double score = 0.0;               ///< predicted RankedFit::score of the fit
+  /// The predicted Likelihood::largest_drop by the last effect: by the added one, or by the dropped
+  /// one in the set as it is.
+  double drop = 0.0;
+
+  Candidate of(const Candidate& set) const;
+};
+
+/// Returns all moves of `base`, those with the lowest predicted score first: of each effect of
+/// `others` the best of a few values (start_places.hpp). Effects that change nothing, or with which
+/// there is no arm, are left out.
+///
+/// The prediction is the Lagrange multiplier test [Rao1948, Silvey1959] on weighted lines. With y
+/// the lines of the set, or of the set without the dropped effect, c the change that the added one
+/// makes of them, a its size and P = I - J J^+ what refitting the others leaves, the lines after
+/// the move are P(y + a c), the size that of their least squares. The score is that of the
+/// likelihood of these lines, in which the noise is estimated again. c is taken beside the whole
+/// set, so that it serves all swaps. Throws Cancelled where the work is cancelled.
+std::vector<Move> moves_of(const Likelihood& likelihood, const RankedFit& base,
+                           const std::vector<Hypothesis>& others, const ReportedWork& work);
+
+}  // namespace flexarm::diagnose

@@ -35,15 +35,17 @@ MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::siz
 /// A set that an effect may be added to, as the weighted lines have it.
 class Ground {
  public:
-  Ground(const Likelihood& likelihood, const Candidate& set, VectorXd lines,
-         const MatrixXd& jacobian)
+  Ground(const Likelihood& likelihood, Candidate set, VectorXd lines, const MatrixXd& jacobian)
       : likelihood_(likelihood),
+        set_(std::move(set)),
         lines_(std::move(lines)),
         weights_(likelihood.weights(lines_)),
         roots_(weights_.cwiseSqrt()),
         refitted_(roots_.asDiagonal() * jacobian),
         left_(refitted_(roots_.cwiseProduct(lines_))),
-        price_(price(set, jacobian, weights_)) {}
+        price_(price(set_, jacobian, weights_)) {}
+
+  const Candidate& set() const { return set_; }
 
   const VectorXd& lines() const { return lines_; }
   /// The lines that refitting leaves.
@@ -75,6 +77,7 @@ class Ground {
   }
 
   const Likelihood& likelihood_;
+  Candidate set_;
   VectorXd lines_;
   VectorXd weights_;
   VectorXd roots_;
@@ -111,35 +114,49 @@ class Neighbourhood {
     return made;
   }
 
-  /// The best moves with an effect added: to the whole set, and in the place of each of its effects.
+  /// The best moves with an effect added: to the whole set, and in the place of each of its
+  /// effects.
   std::vector<Move> with(const Hypothesis& effect) const {
-    std::vector<Move> best(without_.size() + 1);
-    const Candidate& set = base_.candidate;
-    const auto own = std::ranges::find(set.effects, effect.effect, &Hypothesis::effect);
-    if (own != set.effects.end() && own->label() == effect.label()) return {};
-    const std::size_t replaced = static_cast<std::size_t>(own - set.effects.begin());
-    const bool is_replacing = own != set.effects.end();  // the same effect on another sensor
-    if (is_replacing && !without_[replaced]) return {};
-    const Candidate beside = is_replacing ? set.without(replaced) : set;
-    const VectorXd& lines = is_replacing ? without_[replaced]->lines() : whole_->lines();
-    for (const StartPlaces& places : samples_of(effect)) {
-      const auto moved = lines_of(beside.with(effect, effects::values_at(effect.parameters, places)));
-      if (!moved) continue;
-      const VectorXd change = *moved - lines;
-      for (std::size_t i = 0; i <= without_.size(); ++i) {
-        const bool is_swap = i < without_.size();
-        if ((is_swap && !without_[i]) || (is_replacing && i != replaced)) continue;
-        Move move = (is_swap ? *without_[i] : *whole_).adding(effect, places, change);
-        if (is_swap) move.dropped = i;
-        const bool is_better = best[i].added == nullptr || move.score < best[i].score;
-        if (move.added != nullptr && is_better) best[i] = std::move(move);
+    const std::vector<Hypothesis>& own = base_.candidate.effects;
+    std::vector<Move> best(own.size() + 1);
+    const auto look_beside = [&](const Ground& ground, const std::vector<std::size_t>& moves) {
+      for (const StartPlaces& places : samples_of(effect)) {
+        const auto values = effects::values_at(effect.parameters, places);
+        const auto moved = lines_of(ground.set().with(effect, values));
+        if (!moved) continue;
+        const VectorXd change = *moved - ground.lines();
+        for (const std::size_t i : moves) {
+          Move move = ground_of(i).adding(effect, places, change);
+          if (i < own.size()) move.dropped = i;
+          const bool is_better = best[i].added == nullptr || move.score < best[i].score;
+          if (move.added != nullptr && is_better) best[i] = std::move(move);
+        }
+      }
+    };
+    std::vector<std::size_t> additive;
+    bool is_new = true;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (!without_[i]) continue;
+      if (own[i].label() == effect.label()) return {};
+      is_new = is_new && own[i].effect != effect.effect;
+      if (own[i].entry->family == effect.entry->family) {
+        look_beside(*without_[i], {i});
+      } else {
+        additive.push_back(i);
       }
     }
+    additive.push_back(own.size());
+    if (is_new) look_beside(*whole_, additive);
     std::erase_if(best, [](const Move& one) { return one.added == nullptr; });
     return best;
   }
 
  private:
+  /// The set without the effect at `dropped`; the whole set behind the last one.
+  const Ground& ground_of(std::size_t dropped) const {
+    return dropped < without_.size() ? *without_[dropped] : *whole_;
+  }
+
   std::optional<VectorXd> lines_of(const Candidate& candidate) const {
     work_.go_on();
     const auto residuals = likelihood_.problem().residuals(candidate, likelihood_.runs());

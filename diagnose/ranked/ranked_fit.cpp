@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// The difference quotient of a place.
-constexpr double kPlaceStep = 1e-4;
+constexpr double kPlaceStep = 1e-3;
 /// The longest step of a place.
 constexpr double kLongestStep = 0.35;
 constexpr double kFirstDamping = 1e-3;
@@ -246,8 +246,7 @@ RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const
   }
   made.converged = made.converged || here.size() == 0;
   made.jacobian = derivatives.matrix();
-  made.score =
-      made.cost + price(made.candidate, made.jacobian, likelihood.weights(made.lines));
+  made.score = made.cost + price(made.candidate, made.jacobian, likelihood.weights(made.lines));
   return made;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -43,7 +44,7 @@ class Rung {
       const double before = beam.front().score;
       std::vector<RankedFit> neighbours;
       for (const RankedFit& base : beam) {
-        if (!expanded_.insert(base.candidate.labels()).second) continue;
+        if (moves_.contains(base.candidate.labels())) continue;
         std::ranges::move(neighbours_of(base), std::back_inserter(neighbours));
       }
       std::ranges::move(neighbours, std::back_inserter(beam));
@@ -52,6 +53,26 @@ class Rung {
     }
     beam.front() = fitted(beam.front().candidate);
     while (auto simpler = simpler_than(beam.front())) beam.front() = *std::move(simpler);
+  }
+
+  /// The `most` effects whose moves of this set are predicted to be best, and those of the families
+  /// of its effects.
+  std::vector<Hypothesis> shortlist(const RankedFit& set, std::size_t most) {
+    const auto known = moves_.find(set.candidate.labels());
+    const std::vector<Move> moves =
+        known != moves_.end() ? known->second : moves_of(likelihood_, set, hypotheses_, work_);
+    std::set<std::string> kept;
+    for (const Move& move : moves) {
+      if (move.added != nullptr && kept.size() < most) kept.insert(move.added->label());
+    }
+    std::vector<Hypothesis> made;
+    for (const Hypothesis& one : hypotheses_) {
+      const bool is_of_family = std::ranges::any_of(set.candidate.effects, [&](const auto& own) {
+        return own.entry->family == one.entry->family;
+      });
+      if (is_of_family || kept.contains(one.label())) made.push_back(one);
+    }
+    return made;
   }
 
  private:
@@ -69,6 +90,7 @@ class Rung {
   /// before.
   std::vector<RankedFit> neighbours_of(const RankedFit& base) {
     std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
+    moves_[base.candidate.labels()] = moves;
     std::erase_if(moves, [&](const Move& one) {
       const bool is_material = one.added == nullptr || one.drop >= kDoubt * options_.least_drop;
       return !(one.score < base.score) || !is_material;
@@ -82,8 +104,8 @@ class Rung {
     std::vector<RankedFit> kept;
     for (std::size_t i = 0; i < fits.size(); ++i) {
       const bool is_addition = moves[i].added != nullptr && !moves[i].dropped;
-      const bool is_kept = fits[i].is_possible() &&
-                           (!is_addition || is_material(base.lines, fits[i]));
+      const bool is_kept =
+          fits[i].is_possible() && (!is_addition || is_material(base.lines, fits[i]));
       if (is_kept) kept.push_back(std::move(fits[i]));
     }
     return kept;
@@ -123,8 +145,8 @@ class Rung {
   const std::vector<Hypothesis>& hypotheses_;
   const RankedOptions& options_;
   const ReportedWork& work_;
-  std::set<Labels> met_;       ///< sets that were fitted
-  std::set<Labels> expanded_;  ///< whose neighbours were
+  std::set<Labels> met_;                       ///< sets that were fitted
+  std::map<Labels, std::vector<Move>> moves_;  ///< of those whose neighbours were
 };
 
 /// Samples of the longest `time` run for estimation; 0 without any.
@@ -147,18 +169,26 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
   std::vector<RankedFit> beam(1);
   beam.front().candidate = problem.as_filed();
   std::size_t width = options.beam;
+  std::vector<Hypothesis> searched = hypotheses;
+  std::size_t most = hypotheses.size();
+  const auto climb = [&](const Problem& part) {
+    Rung rung(part, searched, options, work);
+    rung.climb(beam, std::exchange(width, 1));
+    most /= options.halving;
+    return rung.shortlist(beam.front(), most);
+  };
   try {
     const std::size_t longest = longest_run(problem.experiment());
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
+      const int modes = std::min(options.coarse_modes, problem.predictor().flexible_modes());
       const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
-                         {.flexible_modes = problem.predictor().flexible_modes()});
-      Rung rung(part, hypotheses, options, work);
-      rung.climb(beam, std::exchange(width, 1));
+                         {.flexible_modes = modes});
+      searched = climb(part);
     }
     work.tell("effects on all data", 0.5);
-    Rung rung(problem, hypotheses, options, work);
+    Rung rung(problem, searched, options, work);
     rung.climb(beam, width);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;

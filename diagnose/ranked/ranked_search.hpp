@@ -15,6 +15,10 @@ struct RankedOptions {
   /// An effect is material where it lowers the mean square of what is left in some octave of some
   /// sensor by this part or more: an error by a factor of 1.15.
   double least_drop = 0.25;
+  /// Each rung is climbed with this part of the effects of the one below, the best by prediction.
+  std::size_t halving = 2;
+  /// Flexible modes on the rungs below all data <= this.
+  int coarse_modes = 6;
   /// Samples of each run on the rungs below all data.
   std::array<std::size_t, 3> rungs = {400, 1600, 6400};
 };

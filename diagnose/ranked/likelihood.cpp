@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <map>
 #include <numbers>
-#include <string>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -103,16 +102,10 @@ std::vector<Index> octaves(Index lines) {
 Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
-  std::map<std::pair<std::string, std::size_t>, std::size_t> groups;
-  const auto group = [&](const ObservedChannel& channel, std::size_t octave) {
-    return groups.try_emplace({channel.sensor, octave}, groups.size()).first->second;
-  };
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
-    const auto n = static_cast<double>(channel.count);
     if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {
-      bands_.push_back(
-          {channel.first, channel.count, kStatedWeight, n + kStatedWeight, group(channel, 0)});
+      bands_.push_back({channel.first, channel.count, 0.0, true});
       continue;
     }
     const Index samples = transformed(channel);
@@ -123,18 +116,15 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
     cosine_transform(signal);
     const double truncation = std::pow(channel.numerical_error / channel.floor(), 2);
     Index end = samples;
-    std::size_t octave = 0;
     for (const Index first : octaves(samples)) {
       const Index count = end - first;
       const double followed =
           kDiscrepancy * kDiscrepancy * signal.segment(first, count).squaredNorm();
-      const auto size = static_cast<double>(count);
-      bands_.push_back({channel.first + first, count, size * truncation + followed, size,
-                        group(channel, octave++)});
+      bands_.push_back({channel.first + first, count,
+                        static_cast<double>(count) * truncation + followed, false});
       end = first;
     }
   }
-  groups_ = groups.size();
 }
 
 VectorXd Likelihood::lines(const VectorXd& residuals) const {
@@ -153,12 +143,27 @@ VectorXd Likelihood::lines(const VectorXd& residuals) const {
   return made;
 }
 
+double Likelihood::Band::numbers() const {
+  return std::min(static_cast<double>(count), kNumbers);
+}
+
+double Likelihood::Band::cost(double sum) const {
+  const auto n = static_cast<double>(count);
+  if (!is_stated) return numbers() * std::log((added + sum) / n);
+  if (sum <= n) return sum;
+  return n + numbers() * std::log(sum / n) + (n - numbers()) * (1.0 - n / sum);
+}
+
+double Likelihood::Band::slope(double sum) const {
+  const auto n = static_cast<double>(count);
+  if (!is_stated) return numbers() / (added + sum);
+  if (sum <= n) return 1.0;
+  return numbers() / sum + (n - numbers()) * n / (sum * sum);
+}
+
 double Likelihood::cost_of_squares(const VectorXd& squares) const {
   double cost = squares.tail(squares.size() - problem_.observations().values.size()).sum();
-  for (const Band& band : bands_) {
-    const double sum = band.added + squares.segment(band.first, band.count).sum();
-    cost += band.weight * std::log(sum / band.weight);
-  }
+  for (const Band& band : bands_) cost += band.cost(squares.segment(band.first, band.count).sum());
   return cost;
 }
 
@@ -166,21 +171,10 @@ VectorXd Likelihood::weights(const VectorXd& lines) const {
   VectorXd made = VectorXd::Zero(lines.size());
   made.tail(lines.size() - problem_.observations().values.size()).setOnes();
   for (const Band& band : bands_) {
-    const double sum = band.added + lines.segment(band.first, band.count).squaredNorm();
-    made.segment(band.first, band.count).setConstant(band.weight / sum);
+    const double sum = lines.segment(band.first, band.count).squaredNorm();
+    made.segment(band.first, band.count).setConstant(band.slope(sum));
   }
   return made;
-}
-
-double Likelihood::largest_drop(const VectorXd& simpler, const VectorXd& fuller) const {
-  VectorXd before = VectorXd::Zero(static_cast<Index>(groups_));
-  VectorXd after = before;
-  for (const Band& band : bands_) {
-    const auto group = static_cast<Index>(band.group);
-    before(group) += band.added + simpler.segment(band.first, band.count).squaredNorm();
-    after(group) += band.added + fuller.segment(band.first, band.count).squaredNorm();
-  }
-  return 1.0 - after.cwiseQuotient(before).minCoeff();
 }
 
 }  // namespace flexarm::diagnose

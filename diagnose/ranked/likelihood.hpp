@@ -18,17 +18,25 @@ namespace flexarm::diagnose {
 /// fall into octaves of frequency; within an octave the noise is white. With S_b the sum of squares
 /// of the n_b lines of a band
 ///
-///     -2 ln L = sum_b w_b ln((a_b + S_b)/w_b),
+///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b),    m_b = min(n_b, kNumbers)
 ///
-/// up to a constant. For `time` runs w_b = n_b, and a_b = n_b f_b with f_b the variance of what the
-/// simulation itself errs by: its truncation, and kDiscrepancy of the signal in that band. For
-/// responses and modal tables the deviations are stated: w_b = n_b + kStatedWeight and a_b =
-/// kStatedWeight, a statement that is worth as many lines. Nuisances add their squares.
+/// up to a constant. a_b = n_b f_b with f_b the variance of what the simulation itself errs by: its
+/// truncation, and kDiscrepancy of the signal in that band. m_b are the independent numbers that a
+/// band counts as: what a model gets wrong is a smooth function of frequency times the signal, so
+/// that its lines are no more independent of each other the more of them a record has.
+///
+/// Lines of responses and entries of modal tables have stated deviations. A channel of them is one
+/// band, chi-squared where the statement holds, and beyond that as many numbers as above:
+///
+///     -2 ln L = S                                          S <= n
+///               n + m ln(S/n) + (n - m) (1 - n/S)          S >  n
+///
+/// Nuisances add their squares.
 class Likelihood {
  public:
   /// The part of a signal, as an amplitude, below which no model is asked to follow it.
   static constexpr double kDiscrepancy = 3e-3;
-  static constexpr double kStatedWeight = 4.0;
+  static constexpr double kNumbers = 8.0;
 
   /// Takes the `runs` of the problem, which must outlive the object.
   Likelihood(const Problem& problem, std::vector<bool> runs);
@@ -47,23 +55,22 @@ class Likelihood {
   /// form that has the same derivatives there.
   Eigen::VectorXd weights(const Eigen::VectorXd& lines) const;
 
-  /// Returns the largest part by which `fuller` lowers what `simpler` leaves, a_b + S_b of an
-  /// octave of a sensor in all runs. Both are lines.
-  double largest_drop(const Eigen::VectorXd& simpler, const Eigen::VectorXd& fuller) const;
-
  private:
   struct Band {
     Eigen::Index first = 0;
     Eigen::Index count = 0;
-    double added = 0.0;     ///< a_b
-    double weight = 0.0;    ///< w_b
-    std::size_t group = 0;  ///< of the bands of a sensor in that octave, one a run
+    double added = 0.0;      ///< a_b
+    bool is_stated = false;  ///< its deviations are
+
+    double numbers() const;
+    double cost(double sum) const;
+    /// The derivative of the cost by the sum of squares.
+    double slope(double sum) const;
   };
 
   const Problem& problem_;
   std::vector<bool> runs_;
   std::vector<Band> bands_;
-  std::size_t groups_ = 0;
 };
 
 }  // namespace flexarm::diagnose

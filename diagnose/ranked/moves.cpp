@@ -48,9 +48,8 @@ class Ground {
   const Candidate& set() const { return set_; }
 
   const VectorXd& lines() const { return lines_; }
-  /// The lines that refitting leaves.
-  VectorXd left() const { return unweighted(left_); }
-  double score() const { return likelihood_.cost(left()) + price_; }
+  /// The predicted score where the rest is refitted.
+  double score() const { return likelihood_.cost(unweighted(left_)) + price_; }
 
   /// The move that adds an effect with which the lines change by `change` at `places`; without an
   /// effect where that changes nothing.
@@ -67,8 +66,7 @@ class Ground {
         parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
     return {.added = &effect,
             .values = values_at(effect, places, size),
-            .score = likelihood_.cost(predicted) + price_ + effect_price,
-            .drop = likelihood_.largest_drop(left(), predicted)};
+            .score = likelihood_.cost(predicted) + price_ + effect_price};
   }
 
  private:
@@ -107,9 +105,7 @@ class Neighbourhood {
     std::vector<Move> made;
     for (std::size_t i = 0; i < without_.size(); ++i) {
       if (!without_[i]) continue;
-      made.push_back({.dropped = i,
-                      .score = without_[i]->score(),
-                      .drop = likelihood_.largest_drop(without_[i]->left(), base_.lines)});
+      made.push_back({.dropped = i, .score = without_[i]->score()});
     }
     return made;
   }

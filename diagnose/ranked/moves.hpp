@@ -14,9 +14,6 @@ struct Move {
   const Hypothesis* added = nullptr;
   std::vector<double> values = {};  ///< of the added effect, to begin a fit with
   double score = 0.0;               ///< predicted RankedFit::score of the fit
-  /// The predicted Likelihood::largest_drop by the last effect: by the added one, or by the dropped
-  /// one in the set as it is.
-  double drop = 0.0;
 
   Candidate of(const Candidate& set) const;
 };

@@ -21,8 +21,6 @@ using Eigen::VectorXd;
 using Labels = std::set<std::string>;
 
 constexpr RankedFitOptions kLook = {.most_steps = 10, .tolerance = 0.5, .takes_secants = true};
-/// A prediction may be this part of what a fit then finds.
-constexpr double kDoubt = 0.5;
 
 /// One rung of the ladder: a problem with part of the data, or all.
 class Rung {
@@ -38,6 +36,9 @@ class Rung {
   /// falls.
   void climb(std::vector<RankedFit>& beam, std::size_t width) {
     in_parallel(beam.size(), [&](std::size_t i) { beam[i] = fitted(beam[i].candidate); });
+    std::erase_if(beam, [](const RankedFit& one) { return !one.is_possible(); });
+    if (beam.empty()) beam.push_back(fitted(likelihood_.problem().as_filed()));
+    if (!beam.front().is_possible()) return;
     for (const RankedFit& one : beam) met_.insert(one.candidate.labels());
     keep_best(beam, width);
     for (bool falls = true; falls;) {
@@ -52,7 +53,6 @@ class Rung {
       falls = beam.front().score < before;
     }
     beam.front() = fitted(beam.front().candidate);
-    while (auto simpler = simpler_than(beam.front())) beam.front() = *std::move(simpler);
   }
 
   /// The `most` effects whose moves of this set are predicted to be best, and those of the families
@@ -92,53 +92,13 @@ class Rung {
     std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
     moves_[base.candidate.labels()] = moves;
     std::erase_if(moves, [&](const Move& one) {
-      const bool is_material = one.added == nullptr || one.drop >= kDoubt * options_.least_drop;
-      return !(one.score < base.score) || !is_material;
-    });
-    std::erase_if(moves, [&](const Move& one) {
-      return !met_.insert(one.of(base.candidate).labels()).second;
+      return !(one.score < base.score) || !met_.insert(one.of(base.candidate).labels()).second;
     });
     moves.resize(std::min(moves.size(), options_.looks));
     std::vector<RankedFit> fits(moves.size());
     in_parallel(moves.size(), [&](std::size_t i) { fits[i] = look(moves[i], base); });
-    std::vector<RankedFit> kept;
-    for (std::size_t i = 0; i < fits.size(); ++i) {
-      const bool is_addition = moves[i].added != nullptr && !moves[i].dropped;
-      const bool is_kept =
-          fits[i].is_possible() && (!is_addition || is_material(base.lines, fits[i]));
-      if (is_kept) kept.push_back(std::move(fits[i]));
-    }
-    return kept;
-  }
-
-  bool is_material(const VectorXd& lines_without, const RankedFit& with) const {
-    return likelihood_.largest_drop(lines_without, with.lines) >= options_.least_drop;
-  }
-
-  /// The best set without an effect that is not material, or with the limit of one that is not
-  /// beside it; empty where all are.
-  std::optional<RankedFit> simpler_than(const RankedFit& best) const {
-    const std::vector<Hypothesis> limits = limits_in(best);
-    for (const Move& move : moves_of(likelihood_, best, limits, work_)) {
-      const bool is_drop = move.added == nullptr && move.drop < options_.least_drop / kDoubt;
-      if (!is_drop && !is_limit(move, best)) continue;
-      RankedFit simpler = ranked_fit(likelihood_, move.of(best.candidate), work_, {}, &best);
-      if (simpler.is_possible() && !is_material(simpler.lines, best)) return simpler;
-    }
-    return std::nullopt;
-  }
-
-  std::vector<Hypothesis> limits_in(const RankedFit& set) const {
-    std::vector<Hypothesis> limits;
-    for (const Hypothesis& effect : set.candidate.effects) {
-      for (const Hypothesis* limit : limits_of(effect, hypotheses_)) limits.push_back(*limit);
-    }
-    return limits;
-  }
-
-  static bool is_limit(const Move& move, const RankedFit& set) {
-    return move.added != nullptr && move.dropped &&
-           set.candidate.effects[*move.dropped].contains(move.added->effect);
+    std::erase_if(fits, [](const RankedFit& one) { return !one.is_possible(); });
+    return fits;
   }
 
   Likelihood likelihood_;

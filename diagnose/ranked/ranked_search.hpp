@@ -12,9 +12,6 @@ namespace flexarm::diagnose {
 struct RankedOptions {
   std::size_t beam = 3;   ///< sets that grow at a time on the first rung; on others one does
   std::size_t looks = 6;  ///< moves of each that are fitted, the best by prediction
-  /// An effect is material where it lowers the mean square of what is left in some octave of some
-  /// sensor by this part or more: an error by a factor of 1.15.
-  double least_drop = 0.25;
   /// Each rung is climbed with this part of the effects of the one below, the best by prediction.
   std::size_t halving = 2;
   /// Flexible modes on the rungs below all data <= this.

@@ -21,6 +21,9 @@ namespace {
 /// Lines of the lowest band, at least.
 constexpr Index kFewestLines = 8;
 
+/// Flexible modes by which the truncation of a simulation is judged.
+constexpr int kFurtherModes = 4;
+
 /// The orthonormal DCT-II of one length, by one Fourier transform of the even samples followed by
 /// the odd ones in reverse [Makhoul1980].
 class CosineTransform {
@@ -97,11 +100,23 @@ std::vector<Index> octaves(Index lines) {
   return firsts;
 }
 
+/// The change of the residuals of the arm as filed by kFurtherModes modes more; 0 where there is no
+/// such arm.
+VectorXd truncation_of(const Problem& problem, const std::vector<bool>& runs) {
+  const Candidate filed = problem.as_filed();
+  const auto with_own = problem.residuals(filed, runs);
+  const int modes = problem.predictor().flexible_modes() + kFurtherModes;
+  const auto with_more = problem.with_modes(modes).residuals(filed, runs);
+  if (!with_own || !with_more) return VectorXd::Zero(problem.residual_count());
+  return *with_own - *with_more;
+}
+
 }  // namespace
 
 Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
+  const VectorXd truncation = lines(truncation_of(problem, runs_)).cwiseAbs2();
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {
@@ -114,14 +129,13 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
     bridge(channel.left_out, signal);
     signal.array() -= signal.mean();
     cosine_transform(signal);
-    const double truncation = std::pow(channel.numerical_error / channel.floor(), 2);
     Index end = samples;
     for (const Index first : octaves(samples)) {
       const Index count = end - first;
       const double followed =
           kDiscrepancy * kDiscrepancy * signal.segment(first, count).squaredNorm();
       bands_.push_back({channel.first + first, count,
-                        static_cast<double>(count) * truncation + followed, false});
+                        truncation.segment(channel.first + first, count).sum() + followed, false});
       end = first;
     }
   }

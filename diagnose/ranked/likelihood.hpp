@@ -20,10 +20,11 @@ namespace flexarm::diagnose {
 ///
 ///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b),    m_b = min(n_b, kNumbers)
 ///
-/// up to a constant. a_b = n_b f_b with f_b the variance of what the simulation itself errs by: its
-/// truncation, and kDiscrepancy of the signal in that band. m_b are the independent numbers that a
-/// band counts as: what a model gets wrong is a smooth function of frequency times the signal, so
-/// that its lines are no more independent of each other the more of them a record has.
+/// up to a constant. a_b are the squares of what the simulation itself errs by: its truncation,
+/// which is the change that further modes make of the arm as filed, and kDiscrepancy of the signal
+/// in that band. m_b are the independent numbers that a band counts as: what a model gets wrong is
+/// a smooth function of frequency times the signal, so that its lines are no more independent of
+/// each other the more of them a record has.
 ///
 /// Lines of responses and entries of modal tables have stated deviations. A channel of them is one
 /// band, chi-squared where the statement holds, and beyond that as many numbers as above:
@@ -36,6 +37,7 @@ class Likelihood {
  public:
   /// The part of a signal, as an amplitude, below which no model is asked to follow it.
   static constexpr double kDiscrepancy = 3e-3;
+  /// Independent numbers of an octave of a channel, at most.
   static constexpr double kNumbers = 8.0;
 
   /// Takes the `runs` of the problem, which must outlive the object.

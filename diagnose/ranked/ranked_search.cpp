@@ -5,6 +5,7 @@
 #include "diagnose/search/coarse.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -28,6 +29,7 @@ class Rung {
   Rung(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
        const RankedOptions& options, const ReportedWork& work)
       : likelihood_(problem, problem.estimation_runs()),
+        least_time_s_(options.least_time * scales_of(problem.experiment()).shortest_time_s),
         hypotheses_(hypotheses),
         options_(options),
         work_(work) {}
@@ -97,17 +99,35 @@ class Rung {
     moves.resize(std::min(moves.size(), options_.looks));
     std::vector<RankedFit> fits(moves.size());
     in_parallel(moves.size(), [&](std::size_t i) { fits[i] = look(moves[i], base); });
-    std::erase_if(fits, [](const RankedFit& one) { return !one.is_possible(); });
+    std::erase_if(fits, [&](const RankedFit& one) {
+      return !one.is_possible() || !can_be_timed(one.candidate);
+    });
     return fits;
   }
 
+  /// Whether the delay or lag that was added last is one that the clock of the data can tell.
+  bool can_be_timed(const Candidate& set) const {
+    if (set.effects.empty()) return true;
+    const Hypothesis& last = set.effects.back();
+    if (last.entry->family != effects::Family::timing) return true;
+    return std::abs(set.values_of(set.effects.size() - 1).front()) >= least_time_s_;
+  }
+
   Likelihood likelihood_;
+  double least_time_s_;
   const std::vector<Hypothesis>& hypotheses_;
   const RankedOptions& options_;
   const ReportedWork& work_;
   std::set<Labels> met_;                       ///< sets that were fitted
   std::map<Labels, std::vector<Move>> moves_;  ///< of those whose neighbours were
 };
+
+/// Those that an arm has in one case of five (effects::Likely).
+std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
+  std::erase_if(hypotheses,
+                [](const Hypothesis& one) { return one.entry->prior != effects::Likely::common; });
+  return hypotheses;
+}
 
 /// Samples of the longest `time` run for estimation; 0 without any.
 std::size_t longest_run(const Experiment& experiment) {
@@ -126,18 +146,24 @@ std::size_t longest_run(const Experiment& experiment) {
 RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
                          const RankedOptions& options, ReportedWork& work) {
   RankedSets made;
-  std::vector<RankedFit> beam(1);
-  beam.front().candidate = problem.as_filed();
-  std::size_t width = options.beam;
+  std::vector<RankedFit> beam;
   std::vector<Hypothesis> searched = hypotheses;
+  const std::vector<Hypothesis> common = common_of(hypotheses);
   std::size_t most = hypotheses.size();
-  const auto climb = [&](const Problem& part) {
+  const auto climb_afresh = [&](const Problem& part, std::size_t width) {
+    std::vector<RankedFit> fresh(1);
+    fresh.front().candidate = part.as_filed();
+    Rung(part, common, options, work).climb(fresh, width);
+    std::ranges::move(fresh, std::back_inserter(beam));
+  };
+  const auto climb = [&](const Problem& part, std::size_t width) {
     Rung rung(part, searched, options, work);
-    rung.climb(beam, std::exchange(width, 1));
+    rung.climb(beam, width);
     most /= options.halving;
-    return rung.shortlist(beam.front(), most);
+    searched = rung.shortlist(beam.front(), most);
   };
   try {
+    std::size_t width = options.beam;
     const std::size_t longest = longest_run(problem.experiment());
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
@@ -145,15 +171,18 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
       const int modes = std::min(options.coarse_modes, problem.predictor().flexible_modes());
       const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
                          {.flexible_modes = modes});
-      searched = climb(part);
+      climb_afresh(part, width);
+      climb(part, width);
+      width = 1;
     }
     work.tell("effects on all data", 0.5);
-    Rung rung(problem, searched, options, work);
-    rung.climb(beam, width);
+    if (beam.empty()) climb_afresh(problem, width);
+    climb(problem, width);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;
   }
+  if (beam.empty()) beam.push_back({.candidate = problem.as_filed()});
   made.best = std::move(beam);
   return made;
 }

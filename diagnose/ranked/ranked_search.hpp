@@ -10,10 +10,13 @@ namespace flexarm::diagnose {
 
 /// How far the ranked search goes.
 struct RankedOptions {
-  std::size_t beam = 3;   ///< sets that grow at a time on the first rung; on others one does
+  std::size_t beam = 3;   ///< sets that are kept at a time on the first rung; on others one is
   std::size_t looks = 6;  ///< moves of each that are fitted, the best by prediction
   /// Each rung is climbed with this part of the effects of the one below, the best by prediction.
   std::size_t halving = 2;
+  /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
+  /// known better.
+  double least_time = 0.1;
   /// Flexible modes on the rungs below all data <= this.
   int coarse_modes = 6;
   /// Samples of each run on the rungs below all data.
@@ -29,12 +32,12 @@ struct RankedSets {
 /// Searches the set of effects with the lowest score (ranked_fit.hpp): on a ladder of ever more
 /// data, whose last rung is all estimation runs,
 ///
-/// - a beam of sets grows by one effect at a time, those that the score test ranks first, while the
-///   best score falls;
-/// - the best set is improved by dropping an effect, and by swapping one for another, while that
-///   lowers the score;
-/// - an effect that is not material (RankedOptions::least_drop) is dropped, and one that is not
-///   material beside its limit yields to it.
+/// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
+///   fitted, while the best score falls;
+/// - below all data a search begins with the arm as filed and the `common` effects alone
+///   (effects::Likely); what it finds and what the rung below found go on with all effects;
+/// - the next rung has a part of the effects, those that do best and those of the families of the
+///   set.
 ///
 /// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
 /// Cancelled where the work is cancelled otherwise.

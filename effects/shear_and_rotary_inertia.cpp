@@ -46,6 +46,7 @@ Entry shear_and_rotary_inertia() {
                 const arm::Beam& beam = scales.arm.beam;
                 return beam.shear_modulus_Pa && beam.width_m && beam.thickness_m;
               },
+          .prior = Likely::rare,
           .family = Family::beam_stiffness,
           .speaks_for =
               "natural frequencies below Euler-Bernoulli values, increasingly so for higher modes",

@@ -101,8 +101,9 @@ std::vector<Index> octaves(Index lines) {
 }
 
 /// The change of the residuals of the arm as filed by kFurtherModes modes more; 0 where there is no
-/// such arm.
+/// such arm, and by a Kalman filter, whose noise model stands for it.
 VectorXd truncation_of(const Problem& problem, const std::vector<bool>& runs) {
+  if (problem.predictor().noise()) return VectorXd::Zero(problem.residual_count());
   const Candidate filed = problem.as_filed();
   const auto with_own = problem.residuals(filed, runs);
   const int modes = problem.predictor().flexible_modes() + kFurtherModes;

@@ -148,13 +148,15 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
   RankedSets made;
   std::vector<RankedFit> beam;
   std::vector<Hypothesis> searched = hypotheses;
-  const std::vector<Hypothesis> common = common_of(hypotheses);
+  std::vector<Hypothesis> common = common_of(hypotheses);
   std::size_t most = hypotheses.size();
   const auto climb_afresh = [&](const Problem& part, std::size_t width) {
-    std::vector<RankedFit> fresh(1);
-    fresh.front().candidate = part.as_filed();
-    Rung(part, common, options, work).climb(fresh, width);
-    std::ranges::move(fresh, std::back_inserter(beam));
+    for (const auto* effects : {&common, &searched}) {
+      std::vector<RankedFit> fresh(1);
+      fresh.front().candidate = part.as_filed();
+      Rung(part, *effects, options, work).climb(fresh, width);
+      std::ranges::move(fresh, std::back_inserter(beam));
+    }
   };
   const auto climb = [&](const Problem& part, std::size_t width) {
     Rung rung(part, searched, options, work);

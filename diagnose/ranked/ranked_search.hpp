@@ -34,8 +34,8 @@ struct RankedSets {
 ///
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
-/// - below all data a search begins with the arm as filed and the `common` effects alone
-///   (effects::Likely); what it finds and what the rung below found go on with all effects;
+/// - below all data two searches begin with the arm as filed, one with the `common` effects alone
+///   (effects::Likely) and one with all; the best of what they and the rung below found goes on;
 /// - the next rung has a part of the effects, those that do best and those of the families of the
 ///   set.
 ///

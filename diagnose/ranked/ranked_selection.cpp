@@ -63,10 +63,10 @@ void keep(const Problem& problem, const Candidate& candidate, Selection& made) {
 }
 
 /// Throws Cancelled where the work is cancelled, but not after its deadline.
-void search(const SelectionTask& task, const Problem& problem, ReportedWork& work,
+void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, ReportedWork& work,
             Selection& made) {
   constexpr const char* kStage = "ranked search";
-  RankedSets sets = ranked_search(problem, task.hypotheses, {}, work);
+  RankedSets sets = ranked_search(problem, hypotheses, {}, work);
   if (!sets.is_complete) made.end = SearchEnd{kStage, {}};
   RankedFit& best = sets.best.front();
   const Likelihood likelihood(problem, problem.estimation_runs());
@@ -93,16 +93,15 @@ void search(const SelectionTask& task, const Problem& problem, ReportedWork& wor
 
 }  // namespace
 
-PredictedSelection select_by_rank(const SelectionTask& task, const Problem& problem,
-                                  const DiagnosisProgress& progress) {
-  PredictedSelection made{
-      .selection = Selection{problem}, .reason = "ranked search", .simulated = problem};
-  made.selection.hypotheses = task.hypotheses.size();
-  ReportedWork work(progress, task.options.deadline);
+Selection ranked_selection(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                           const SelectionOptions& options, const DiagnosisProgress& progress) {
+  Selection made{problem};
+  made.hypotheses = hypotheses.size();
+  ReportedWork work(progress, options.deadline);
   try {
-    search(task, problem, work, made.selection);
+    search(problem, hypotheses, work, made);
   } catch (const Cancelled&) {
-    made.selection.cancelled = true;
+    made.cancelled = true;
   }
   return made;
 }

@@ -1,14 +1,16 @@
 #pragma once
 
-#include "diagnose/search/predicted_selection.hpp"
+#include "diagnose/search/selection.hpp"
+
+#include <vector>
 
 namespace flexarm::diagnose {
 
-/// Selects effects by the ranked search (ranked_search.hpp), with simulations of `problem`. An
+/// Selects effects by the ranked search (ranked_search.hpp), with the residuals of `problem`. An
 /// effect is left out where the extended arm predicts the validation runs better without it, the
 /// others refitted. `singles` and `combinations` are the sets of the last beam, each chosen effect
 /// by itself, and the chosen set without each.
-PredictedSelection select_by_rank(const SelectionTask& task, const Problem& problem,
-                                  const DiagnosisProgress& progress);
+Selection ranked_selection(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                           const SelectionOptions& options, const DiagnosisProgress& progress);
 
 }  // namespace flexarm::diagnose

@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/predictors/response_runs.hpp"
-#include "diagnose/ranked/ranked_selection.hpp"
 #include "diagnose/search/admission.hpp"
 
 #include <fmt/format.h>
@@ -263,10 +262,10 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
   }
   std::string note;
   const Problem problem = simulated_problem(experiment, options, note);
-  if (options.method == SearchMethod::ranked) return select_by_rank(task, problem, progress);
-  if (!fits_time_runs(experiment)) {
+  const bool is_ranked = options.method == SearchMethod::ranked && !asked;
+  if (is_ranked || !fits_time_runs(experiment)) {
     PredictedSelection made = select_by_simulation(task, problem, progress);
-    made.reason.clear();
+    made.reason = is_ranked ? "ranked search" : "";
     return made;
   }
   const auto selected = !asked                                        ? select_by_both

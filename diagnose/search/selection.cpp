@@ -1,6 +1,7 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/parallel.hpp"
+#include "diagnose/ranked/ranked_selection.hpp"
 #include "diagnose/search/admission.hpp"
 #include "diagnose/search/general_effects.hpp"
 #include "diagnose/search/parameter_errors.hpp"
@@ -437,6 +438,9 @@ class Search {
 
 Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress) {
+  if (options.method == SearchMethod::ranked) {
+    return ranked_selection(problem, hypotheses, options, progress);
+  }
   try {
     return Search(problem, hypotheses, options, progress).run();
   } catch (const Cancelled&) {

@@ -58,8 +58,9 @@ class Rung {
   }
 
   /// The `most` effects whose moves of this set are predicted to be best, and those of the families
-  /// of its effects.
+  /// of its effects; all of a set that cannot be computed.
   std::vector<Hypothesis> shortlist(const RankedFit& set, std::size_t most) {
+    if (!set.is_possible()) return hypotheses_;
     const auto known = moves_.find(set.candidate.labels());
     const std::vector<Move> moves =
         known != moves_.end() ? known->second : moves_of(likelihood_, set, hypotheses_, work_);
@@ -93,10 +94,13 @@ class Rung {
   std::vector<RankedFit> neighbours_of(const RankedFit& base) {
     std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
     moves_[base.candidate.labels()] = moves;
+    std::size_t looks = 0;
     std::erase_if(moves, [&](const Move& one) {
-      return !(one.score < base.score) || !met_.insert(one.of(base.candidate).labels()).second;
+      const bool is_looked_at = looks < options_.looks && one.score < base.score &&
+                                met_.insert(one.of(base.candidate).labels()).second;
+      looks += is_looked_at ? 1 : 0;
+      return !is_looked_at;
     });
-    moves.resize(std::min(moves.size(), options_.looks));
     std::vector<RankedFit> fits(moves.size());
     in_parallel(moves.size(), [&](std::size_t i) { fits[i] = look(moves[i], base); });
     std::erase_if(fits, [&](const RankedFit& one) {

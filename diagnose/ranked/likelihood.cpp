@@ -158,22 +158,22 @@ VectorXd Likelihood::lines(const VectorXd& residuals) const {
   return made;
 }
 
-double Likelihood::Band::numbers() const {
-  return std::min(static_cast<double>(count), kNumbers);
+double Likelihood::Band::sample_size() const {
+  return std::min(static_cast<double>(count), kSampleSize);
 }
 
 double Likelihood::Band::cost(double sum) const {
   const auto n = static_cast<double>(count);
-  if (!is_stated) return numbers() * std::log((added + sum) / n);
+  if (!is_stated) return sample_size() * std::log((added + sum) / n);
   if (sum <= n) return sum;
-  return n + numbers() * std::log(sum / n) + (n - numbers()) * (1.0 - n / sum);
+  return n + sample_size() * std::log(sum / n) + (n - sample_size()) * (1.0 - n / sum);
 }
 
 double Likelihood::Band::slope(double sum) const {
   const auto n = static_cast<double>(count);
-  if (!is_stated) return numbers() / (added + sum);
+  if (!is_stated) return sample_size() / (added + sum);
   if (sum <= n) return 1.0;
-  return numbers() / sum + (n - numbers()) * n / (sum * sum);
+  return sample_size() / sum + (n - sample_size()) * n / (sum * sum);
 }
 
 double Likelihood::cost_of_squares(const VectorXd& squares) const {

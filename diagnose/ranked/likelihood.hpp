@@ -18,16 +18,16 @@ namespace flexarm::diagnose {
 /// fall into octaves of frequency; within an octave the noise is white. With S_b the sum of squares
 /// of the n_b lines of a band
 ///
-///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b),    m_b = min(n_b, kNumbers)
+///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b),    m_b = min(n_b, kSampleSize)
 ///
 /// up to a constant. a_b are the squares of what the simulation itself errs by: its truncation,
 /// which is the change that further modes make of the arm as filed, and kDiscrepancy of the signal
-/// in that band. m_b are the independent numbers that a band counts as: what a model gets wrong is
-/// a smooth function of frequency times the signal, so that its lines are no more independent of
-/// each other the more of them a record has.
+/// in that band. m_b is the effective sample size of a band: what a model gets wrong is a smooth
+/// function of frequency times the signal, so that its lines are no more independent of each other
+/// the more of them a record has.
 ///
 /// Lines of responses and entries of modal tables have stated deviations. A channel of them is one
-/// band, chi-squared where the statement holds, and beyond that as many numbers as above:
+/// band, chi-squared where the statement holds, and of the effective sample size above beyond that:
 ///
 ///     -2 ln L = S                                          S <= n
 ///               n + m ln(S/n) + (n - m) (1 - n/S)          S >  n
@@ -37,8 +37,8 @@ class Likelihood {
  public:
   /// The part of a signal, as an amplitude, below which no model is asked to follow it.
   static constexpr double kDiscrepancy = 3e-3;
-  /// Independent numbers of an octave of a channel, at most.
-  static constexpr double kNumbers = 8.0;
+  /// The largest effective sample size of an octave of a channel.
+  static constexpr double kSampleSize = 8.0;
 
   /// Takes the `runs` of the problem, which must outlive the object.
   Likelihood(const Problem& problem, std::vector<bool> runs);
@@ -64,7 +64,7 @@ class Likelihood {
     double added = 0.0;      ///< a_b
     bool is_stated = false;  ///< its deviations are
 
-    double numbers() const;
+    double sample_size() const;
     double cost(double sum) const;
     /// The derivative of the cost by the sum of squares.
     double slope(double sum) const;

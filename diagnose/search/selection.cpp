@@ -1,7 +1,6 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/parallel.hpp"
-#include "diagnose/ranked/ranked_selection.hpp"
 #include "diagnose/search/admission.hpp"
 #include "diagnose/search/general_effects.hpp"
 #include "diagnose/search/parameter_errors.hpp"
@@ -436,11 +435,8 @@ class Search {
 
 }  // namespace
 
-Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
-                 const SelectionOptions& options, const DiagnosisProgress& progress) {
-  if (options.method == SearchMethod::ranked) {
-    return ranked_selection(problem, hypotheses, options, progress);
-  }
+Selection staged_selection(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                           const SelectionOptions& options, const DiagnosisProgress& progress) {
   try {
     return Search(problem, hypotheses, options, progress).run();
   } catch (const Cancelled&) {

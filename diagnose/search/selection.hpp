@@ -39,8 +39,8 @@ struct Selection {
   Explanation nothing = {};               ///< no cause; the arm's uncertain numbers refitted
   std::vector<Explanation> singles = {};  ///< hypotheses by themselves, the best first
   std::vector<Explanation> combinations =
-      {};                   ///< of two effects or more, those tried; the best first
-  Explanation chosen = {};  ///< `nothing`, or with the causes
+      {};                                ///< of two effects or more, those tried; the best first
+  Explanation chosen = {};               ///< `nothing`, or with the causes
   std::vector<RuledOut> ruled_out = {};  ///< by themselves, those that explain most first
   /// The chosen one with a cause exchanged for one that is indistinguishable from it (rivals.hpp).
   std::vector<Explanation> rivals = {};
@@ -65,7 +65,11 @@ struct Selection {
 /// arm as filed. Throws Cancelled after options.last.
 /// The problem that comes back has the noise level that the best single leaves to be seen, and
 /// torques corrected where their timing explains what is left.
-Selection select(Problem problem, const std::vector<Hypothesis>& hypotheses,
+Selection staged_selection(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                           const SelectionOptions& options, const DiagnosisProgress& progress);
+
+/// Selects effects by options.method: staged_selection, or ranked_selection.
+Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, const DiagnosisProgress& progress = {});
 
 }  // namespace flexarm::diagnose

@@ -93,9 +93,8 @@ report::FigureSize size_in(const std::string& text) {
 /// A family as fontconfig and CSS know it: letters and digits of any script, blanks, '-', '_', '.'.
 bool is_font_family(const std::string& name) {
   return !name.starts_with(' ') && std::ranges::all_of(name, [](char c) {
-    const bool is_beyond_ascii = static_cast<unsigned char>(c) >= 0x80;
-    return is_beyond_ascii || arm::is_letter(c) || arm::is_digit(c) || c == ' ' || c == '-' ||
-           c == '_' || c == '.';
+    return arm::is_beyond_ascii(c) || arm::is_letter(c) || arm::is_digit(c) || c == ' ' ||
+           c == '-' || c == '_' || c == '.';
   });
 }
 

@@ -36,7 +36,7 @@ mu::Parser plain_parser() {
 
 /// What is no ASCII, such as Greek, is taken for a letter, so that it is refused as a whole word.
 bool is_of_word(char c) {
-  return is_letter(c) || is_digit(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
+  return is_letter(c) || is_digit(c) || c == '_' || is_beyond_ascii(c);
 }
 
 std::vector<std::string> names_of_functions(const mu::Parser& parser) {

@@ -48,8 +48,7 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share
 /// The parameters of the effect at `index`.
 std::vector<ParameterEstimate> estimates_of(const Candidate& candidate, std::size_t index,
                                             const std::vector<double>& errors) {
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < index; ++i) at += candidate.effects[i].parameters.size();
+  std::size_t at = candidate.values_before(index);
   std::vector<ParameterEstimate> estimates;
   const Hypothesis& effect = candidate.effects[index];
   for (const auto& parameter : effect.parameters) {

@@ -100,10 +100,14 @@ std::vector<Index> octaves(Index lines) {
   return firsts;
 }
 
-/// The change of the residuals of the arm as filed by kFurtherModes modes more; 0 where there is no
-/// such arm, and by a Kalman filter, whose noise model stands for it.
-VectorXd truncation_of(const Problem& problem, const std::vector<bool>& runs) {
+/// Returns the change of the residuals of the arm as filed by kFurtherModes modes more, of the
+/// `time` runs among `runs`; 0 where there is no such arm, and by a Kalman filter, whose noise
+/// model stands for it.
+VectorXd truncation_of(const Problem& problem, std::vector<bool> runs) {
   if (problem.predictor().noise()) return VectorXd::Zero(problem.residual_count());
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (problem.experiment().runs[r].run.kind != measured::RunKind::time) runs[r] = false;
+  }
   const Candidate filed = problem.as_filed();
   const auto with_own = problem.residuals(filed, runs);
   const int modes = problem.predictor().flexible_modes() + kFurtherModes;
@@ -156,6 +160,12 @@ VectorXd Likelihood::lines(const VectorXd& residuals) const {
     part.tail(channel.count - samples).setZero();
   });
   return made;
+}
+
+std::optional<VectorXd> Likelihood::lines_of(const Candidate& candidate) const {
+  const auto residuals = problem_.residuals(candidate, runs_);
+  if (!residuals) return std::nullopt;
+  return lines(*residuals);
 }
 
 double Likelihood::Band::sample_size() const {

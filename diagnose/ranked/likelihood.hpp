@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -48,6 +48,9 @@ class Likelihood {
 
   /// Returns residuals (Problem::residuals), or changes of them, as lines; the map is linear.
   Eigen::VectorXd lines(const Eigen::VectorXd& residuals) const;
+
+  /// Returns the lines of a candidate's residuals; empty where its arm cannot be computed.
+  std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const;
 
   /// Returns -2 ln L of lines.
   double cost(const Eigen::VectorXd& lines) const { return cost_of_squares(lines.cwiseAbs2()); }

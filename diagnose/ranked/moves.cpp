@@ -21,10 +21,9 @@ using Eigen::VectorXd;
 /// A change of less than this part of the weighted lines is rounding.
 constexpr double kRounding = 1e-6;
 
-/// The columns of `jacobian` but those by the effect at `index`.
+/// Returns the columns of `jacobian` but those by the effect at `index`.
 MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::size_t index) {
-  Index first = std::ssize(set.nuisances);
-  for (std::size_t i = 0; i < index; ++i) first += std::ssize(set.effects[i].parameters);
+  const auto first = static_cast<Index>(set.nuisances.size() + set.values_before(index));
   const Index count = std::ssize(set.effects[index].parameters);
   MatrixXd made(jacobian.rows(), jacobian.cols() - count);
   made.leftCols(first) = jacobian.leftCols(first);
@@ -48,11 +47,11 @@ class Ground {
   const Candidate& set() const { return set_; }
 
   const VectorXd& lines() const { return lines_; }
-  /// The predicted score where the rest is refitted.
+  /// Returns the predicted score where the rest is refitted.
   double score() const { return likelihood_.cost(unweighted(left_)) + price_; }
 
-  /// The move that adds an effect with which the lines change by `change` at `places`; without an
-  /// effect where that changes nothing.
+  /// Returns the move that adds an effect with which the lines change by `change` at `places`;
+  /// without an effect where that changes nothing.
   Move adding(const Hypothesis& effect, const StartPlaces& places, const VectorXd& change) const {
     const VectorXd refitted = refitted_(roots_.cwiseProduct(change));
     const double squares = refitted.squaredNorm();
@@ -61,12 +60,10 @@ class Ground {
     const double size = std::clamp(-refitted.dot(left_) / squares, least, most);
     const VectorXd predicted = unweighted(left_ + size * refitted);
     const double parameters = static_cast<double>(effect.parameters.size());
-    const double effect_price =
-        -2.0 * std::log(effects::probability_of(effect.entry->prior)) +
-        parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
+    const double determined = parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
     return {.added = &effect,
             .values = values_at(effect, places, size),
-            .score = likelihood_.cost(predicted) + price_ + effect_price};
+            .score = likelihood_.cost(predicted) + price_ + price(effect) + determined};
   }
 
  private:
@@ -110,7 +107,7 @@ class Neighbourhood {
     return made;
   }
 
-  /// The best moves with an effect added: to the whole set, and in the place of each of its
+  /// Returns the best moves with an effect added: to the whole set, and in the place of each of its
   /// effects.
   std::vector<Move> with(const Hypothesis& effect) const {
     const std::vector<Hypothesis>& own = base_.candidate.effects;
@@ -148,16 +145,14 @@ class Neighbourhood {
   }
 
  private:
-  /// The set without the effect at `dropped`; the whole set behind the last one.
+  /// Returns the set without the effect at `dropped`; the whole set behind the last one.
   const Ground& ground_of(std::size_t dropped) const {
     return dropped < without_.size() ? *without_[dropped] : *whole_;
   }
 
   std::optional<VectorXd> lines_of(const Candidate& candidate) const {
     work_.go_on();
-    const auto residuals = likelihood_.problem().residuals(candidate, likelihood_.runs());
-    if (!residuals) return std::nullopt;
-    return likelihood_.lines(*residuals);
+    return likelihood_.lines_of(candidate);
   }
 
   const Likelihood& likelihood_;

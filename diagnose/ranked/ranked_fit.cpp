@@ -67,31 +67,23 @@ class Derivatives {
   const MatrixXd& matrix() const { return matrix_; }
   bool are_exact() const { return are_exact_; }
 
-  /// Computes all of them, at `here` with these residuals.
-  void compute(const VectorXd& here, const VectorXd& residuals) {
-    matrix_ = MatrixXd::Zero(residuals.size(), here.size());
-    std::vector<Index> all(static_cast<std::size_t>(here.size()));
-    std::iota(all.begin(), all.end(), Index{0});
-    compute(all, here, residuals);
-    are_exact_ = true;
-  }
-
-  /// Takes those by nuisances and by the effects that `base` has as well, and computes the others.
-  void begin(const RankedFit& base, const Candidate& start, const VectorXd& here,
-             const VectorXd& residuals) {
-    matrix_ = MatrixXd::Zero(residuals.size(), here.size());
+  /// Computes the derivatives at `here`, where the lines are `lines`. Those by nuisances and by the
+  /// effects that `base` has as well are taken from it, where it is given.
+  void compute(const VectorXd& here, const VectorXd& lines, const RankedFit* base = nullptr) {
+    matrix_ = MatrixXd::Zero(lines.size(), here.size());
     std::vector<Index> unknown;
-    const std::vector<Index> columns = columns_in(base.candidate, start);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      const auto column = static_cast<Index>(i);
-      if (columns[i] < 0) {
-        unknown.push_back(column);
+    std::vector<Index> known(static_cast<std::size_t>(here.size()), -1);
+    if (base != nullptr) known = columns_in(base->candidate, places_.at(here));
+    for (Index i = 0; i < here.size(); ++i) {
+      const Index column = known[static_cast<std::size_t>(i)];
+      if (column < 0) {
+        unknown.push_back(i);
       } else {
-        matrix_.col(column) = base.jacobian.col(columns[i]);
+        matrix_.col(i) = base->jacobian.col(column);
       }
     }
-    compute(unknown, here, residuals);
-    are_exact_ = false;
+    difference(unknown, here, lines);
+    are_exact_ = base == nullptr;
   }
 
   void update(const VectorXd& step, const VectorXd& change) {
@@ -101,32 +93,30 @@ class Derivatives {
   }
 
  private:
-  /// Inwards; a column that cannot be computed is 0.
-  void compute(const std::vector<Index>& columns, const VectorXd& here, const VectorXd& residuals) {
+  /// Computes these columns by difference quotients inwards; one that cannot be computed stays 0.
+  void difference(const std::vector<Index>& columns, const VectorXd& here, const VectorXd& lines) {
     in_parallel(columns.size(), [&](std::size_t k) {
       work_.go_on();
       const Index i = columns[k];
       VectorXd beside = here;
       const double step = here(i) < 0.5 ? kPlaceStep : -kPlaceStep;
       beside(i) += step;
-      const auto moved = likelihood_.problem().residuals(places_.at(beside), likelihood_.runs());
-      if (moved) matrix_.col(i) = likelihood_.lines((*moved - residuals) / step);
+      if (const auto moved = likelihood_.lines_of(places_.at(beside))) {
+        matrix_.col(i) = (*moved - lines) / step;
+      }
     });
   }
 
-  /// The column of `base` of each coordinate of `start`; -1 without one.
+  /// Returns the column of `base` of each coordinate of `start`; -1 without one.
   static std::vector<Index> columns_in(const Candidate& base, const Candidate& start) {
     std::vector<Index> columns(start.nuisances.size());
     std::iota(columns.begin(), columns.end(), Index{0});
     for (const Hypothesis& effect : start.effects) {
-      Index at = std::ssize(base.nuisances);
-      const auto own = std::ranges::find_if(base.effects, [&](const Hypothesis& one) {
-        const bool is_it = one.label() == effect.label();
-        if (!is_it) at += std::ssize(one.parameters);
-        return is_it;
-      });
+      const auto own = std::ranges::find(base.effects, effect.label(), &Hypothesis::label);
+      const auto index = static_cast<std::size_t>(own - base.effects.begin());
+      auto column = static_cast<Index>(base.nuisances.size() + base.values_before(index));
       for (std::size_t i = 0; i < effect.parameters.size(); ++i) {
-        columns.push_back(own == base.effects.end() ? -1 : at++);
+        columns.push_back(own == base.effects.end() ? -1 : column++);
       }
     }
     return columns;
@@ -139,7 +129,8 @@ class Derivatives {
   bool are_exact_ = false;
 };
 
-/// The damped Gauss-Newton step of -2 ln L, places at a bound that it would leave held there.
+/// Returns the damped Gauss-Newton step of -2 ln L, places at a bound that it would leave held
+/// there.
 VectorXd damped_step(const MatrixXd& normal, const VectorXd& gradient, const VectorXd& here,
                      const Places& places, double damping) {
   std::vector<bool> is_held(static_cast<std::size_t>(here.size()), false);
@@ -173,11 +164,13 @@ VectorXd damped_step(const MatrixXd& normal, const VectorXd& gradient, const Vec
 
 }  // namespace
 
+double price(const Hypothesis& effect) {
+  return -2.0 * std::log(effects::probability_of(effect.entry->prior));
+}
+
 double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorXd& weights) {
   double sum = 0.0;
-  for (const Hypothesis& effect : candidate.effects) {
-    sum -= 2.0 * std::log(effects::probability_of(effect.entry->prior));
-  }
+  for (const Hypothesis& effect : candidate.effects) sum += price(effect);
   if (jacobian.cols() == 0) return sum;
   MatrixXd weighted = weights.cwiseSqrt().asDiagonal() * jacobian;
   weighted.rightCols(std::ssize(candidate.values)) *= kPlaceDeviation;
@@ -194,17 +187,12 @@ RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const
   VectorXd here = places.bounded(start.coordinates());
   made.candidate.put(here);
   work.go_on();
-  auto residuals = likelihood.problem().residuals(made.candidate, likelihood.runs());
-  if (!residuals) return made;
-  made.residuals = *std::move(residuals);
-  made.lines = likelihood.lines(made.residuals);
+  auto start_lines = likelihood.lines_of(made.candidate);
+  if (!start_lines) return made;
+  made.lines = *std::move(start_lines);
   made.cost = likelihood.cost(made.lines);
   Derivatives derivatives(likelihood, places, work);
-  if (base != nullptr) {
-    derivatives.begin(*base, made.candidate, here, made.residuals);
-  } else {
-    derivatives.compute(here, made.residuals);
-  }
+  derivatives.compute(here, made.lines, base);
   double damping = kFirstDamping;
   for (int steps = 0; here.size() > 0 && steps < options.most_steps && !made.converged;) {
     const MatrixXd weighted = likelihood.weights(made.lines).asDiagonal() * derivatives.matrix();
@@ -214,35 +202,36 @@ RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const
     const double expected = -(2.0 * gradient + normal * step).dot(step);
     if (!(expected > options.tolerance) || damping > kMostDamping) {
       made.converged = derivatives.are_exact() || options.takes_secants;
-      if (!made.converged) derivatives.compute(here, made.residuals);
+      if (!made.converged) derivatives.compute(here, made.lines);
       continue;
     }
     ++steps;
     const VectorXd there = places.bounded(here + step);
     work.go_on();
     const Candidate tried = places.at(there);
-    auto left = likelihood.problem().residuals(tried, likelihood.runs());
-    const VectorXd lines = left ? likelihood.lines(*left) : VectorXd();
-    const double cost = left ? likelihood.cost(lines) : made.cost;
+    auto lines = likelihood.lines_of(tried);
+    const double cost = lines ? likelihood.cost(*lines) : made.cost;
     if (!(cost < made.cost)) {
       damping *= 8.0;
       if (!derivatives.are_exact() && !options.takes_secants) {
-        derivatives.compute(here, made.residuals);
+        derivatives.compute(here, made.lines);
       }
       continue;
     }
     damping /= 5.0;
-    const double gain = made.cost - cost;
-    derivatives.update(there - here, lines - made.lines);
+    const bool is_poor = made.cost - cost < kPoorGain * expected;
+    if (is_poor) {
+      derivatives.compute(there, *lines);
+    } else {
+      derivatives.update(there - here, *lines - made.lines);
+    }
     here = there;
     made.candidate = tried;
-    made.residuals = *std::move(left);
-    made.lines = lines;
+    made.lines = *std::move(lines);
     made.cost = cost;
-    if (gain < kPoorGain * expected) derivatives.compute(here, made.residuals);
   }
   if (!derivatives.are_exact() && !options.takes_secants) {
-    derivatives.compute(here, made.residuals);
+    derivatives.compute(here, made.lines);
   }
   made.converged = made.converged || here.size() == 0;
   made.jacobian = derivatives.matrix();

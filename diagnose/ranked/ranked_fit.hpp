@@ -13,8 +13,7 @@ namespace flexarm::diagnose {
 /// A candidate at the maximum of its likelihood on some runs.
 struct RankedFit {
   Candidate candidate = {};
-  Eigen::VectorXd residuals = {};                          ///< Problem::residuals
-  Eigen::VectorXd lines = {};                              ///< Likelihood::lines of these
+  Eigen::VectorXd lines = {};                              ///< Likelihood::lines_of
   Eigen::MatrixXd jacobian = {};                           ///< lines by Candidate::coordinates
   double cost = std::numeric_limits<double>::infinity();   ///< -2 ln L
   double score = std::numeric_limits<double>::infinity();  ///< cost and price
@@ -26,11 +25,14 @@ struct RankedFit {
 /// Standard deviation of the prior of a place in the range of a parameter.
 inline constexpr double kPlaceDeviation = 0.3;
 
+/// Returns -2 ln p of an effect, p its probability before the data (effects::Entry::prior).
+double price(const Hypothesis& effect);
+
 /// Returns the price of a fitted candidate beside its -2 ln L,
 ///
 ///     sum over effects of -2 ln p  +  ln det(I + P J^T W J),
 ///
-/// p the probability of the effect before the data (effects::Entry::prior), P the prior variance of
+/// P the prior variance of
 /// nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the lines: the Laplace
 /// approximation of the evidence. A parameter that the data determine to a thousandth of its range
 /// costs 2 ln(0.3/0.001) = 11.4.

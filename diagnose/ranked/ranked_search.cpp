@@ -9,7 +9,6 @@
 #include <iterator>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,18 +17,18 @@ namespace flexarm::diagnose {
 
 namespace {
 
-using Eigen::VectorXd;
 using Labels = std::set<std::string>;
 
 constexpr RankedFitOptions kLook = {.most_steps = 10, .tolerance = 0.5, .takes_secants = true};
 
-/// One rung of the ladder: a problem with part of the data, or all.
+/// One climb on a rung of the ladder, which has a part of the data, or all.
 class Rung {
  public:
-  Rung(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+  Rung(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
        const RankedOptions& options, const ReportedWork& work)
-      : likelihood_(problem, problem.estimation_runs()),
-        least_time_s_(options.least_time * scales_of(problem.experiment()).shortest_time_s),
+      : likelihood_(likelihood),
+        least_time_s_(options.least_time *
+                      scales_of(likelihood.problem().experiment()).shortest_time_s),
         hypotheses_(hypotheses),
         options_(options),
         work_(work) {}
@@ -57,8 +56,8 @@ class Rung {
     beam.front() = fitted(beam.front().candidate);
   }
 
-  /// The `most` effects whose moves of this set are predicted to be best, and those of the families
-  /// of its effects; all of a set that cannot be computed.
+  /// Returns the `most` effects whose moves of this set are predicted to be best, and those of the
+  /// families of its effects; all of a set that cannot be computed.
   std::vector<Hypothesis> shortlist(const RankedFit& set, std::size_t most) {
     if (!set.is_possible()) return hypotheses_;
     const auto known = moves_.find(set.candidate.labels());
@@ -89,8 +88,8 @@ class Rung {
     return ranked_fit(likelihood_, move.of(base.candidate), work_, kLook, &base);
   }
 
-  /// Fits of the moves that are predicted to lower the score most, to sets that were not met
-  /// before.
+  /// Returns fits of the moves that are predicted to lower the score most, to sets that were not
+  /// met before.
   std::vector<RankedFit> neighbours_of(const RankedFit& base) {
     std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
     moves_[base.candidate.labels()] = moves;
@@ -109,7 +108,8 @@ class Rung {
     return fits;
   }
 
-  /// Whether the delay or lag that was added last is one that the clock of the data can tell.
+  /// Returns whether the delay or lag that was added last is one that the clock of the data can
+  /// tell.
   bool can_be_timed(const Candidate& set) const {
     if (set.effects.empty()) return true;
     const Hypothesis& last = set.effects.back();
@@ -117,7 +117,7 @@ class Rung {
     return std::abs(set.values_of(set.effects.size() - 1).front()) >= least_time_s_;
   }
 
-  Likelihood likelihood_;
+  const Likelihood& likelihood_;
   double least_time_s_;
   const std::vector<Hypothesis>& hypotheses_;
   const RankedOptions& options_;
@@ -126,14 +126,14 @@ class Rung {
   std::map<Labels, std::vector<Move>> moves_;  ///< of those whose neighbours were
 };
 
-/// Those that an arm has in one case of five (effects::Likely).
+/// Returns the hypotheses that an arm has in one case of five (effects::Likely).
 std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
   std::erase_if(hypotheses,
                 [](const Hypothesis& one) { return one.entry->prior != effects::Likely::common; });
   return hypotheses;
 }
 
-/// Samples of the longest `time` run for estimation; 0 without any.
+/// Returns the number of samples of the longest `time` run for estimation; 0 without any.
 std::size_t longest_run(const Experiment& experiment) {
   std::size_t longest = 0;
   for (const auto& [run, data] : experiment.runs) {
@@ -147,22 +147,23 @@ std::size_t longest_run(const Experiment& experiment) {
 
 }  // namespace
 
-RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
                          const RankedOptions& options, ReportedWork& work) {
+  const Problem& problem = likelihood.problem();
   RankedSets made;
   std::vector<RankedFit> beam;
   std::vector<Hypothesis> searched = hypotheses;
   std::vector<Hypothesis> common = common_of(hypotheses);
   std::size_t most = hypotheses.size();
-  const auto climb_afresh = [&](const Problem& part, std::size_t width) {
+  const auto climb_afresh = [&](const Likelihood& part, std::size_t width) {
     for (const auto* effects : {&common, &searched}) {
       std::vector<RankedFit> fresh(1);
-      fresh.front().candidate = part.as_filed();
+      fresh.front().candidate = problem.as_filed();
       Rung(part, *effects, options, work).climb(fresh, width);
       std::ranges::move(fresh, std::back_inserter(beam));
     }
   };
-  const auto climb = [&](const Problem& part, std::size_t width) {
+  const auto climb = [&](const Likelihood& part, std::size_t width) {
     Rung rung(part, searched, options, work);
     rung.climb(beam, width);
     most /= options.halving;
@@ -177,13 +178,14 @@ RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& 
       const int modes = std::min(options.coarse_modes, problem.predictor().flexible_modes());
       const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
                          {.flexible_modes = modes});
-      climb_afresh(part, width);
-      climb(part, width);
+      const Likelihood of_part(part, part.estimation_runs());
+      climb_afresh(of_part, width);
+      climb(of_part, width);
       width = 1;
     }
     work.tell("effects on all data", 0.5);
-    if (beam.empty()) climb_afresh(problem, width);
-    climb(problem, width);
+    if (beam.empty()) climb_afresh(likelihood, width);
+    climb(likelihood, width);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;

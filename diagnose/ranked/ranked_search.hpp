@@ -30,7 +30,7 @@ struct RankedSets {
 };
 
 /// Searches the set of effects with the lowest score (ranked_fit.hpp): on a ladder of ever more
-/// data, whose last rung is all estimation runs,
+/// data, whose last rung is the runs of `likelihood`,
 ///
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
@@ -41,7 +41,7 @@ struct RankedSets {
 ///
 /// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
 /// Cancelled where the work is cancelled otherwise.
-RankedSets ranked_search(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
+RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
                          const RankedOptions& options, ReportedWork& work);
 
 }  // namespace flexarm::diagnose

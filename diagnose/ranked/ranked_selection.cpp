@@ -14,14 +14,13 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// -2 ln L of the validation runs by a candidate; infinite for one that cannot be computed.
+/// Returns -2 ln L of the validation runs by a candidate; infinite for one that cannot be computed.
 double held_out_cost(const Likelihood& held_out, const Candidate& candidate) {
-  const auto residuals = held_out.problem().residuals(candidate, held_out.runs());
-  if (!residuals) return std::numeric_limits<double>::infinity();
-  return held_out.cost(held_out.lines(*residuals));
+  const auto lines = held_out.lines_of(candidate);
+  return lines ? held_out.cost(*lines) : std::numeric_limits<double>::infinity();
 }
 
-/// The fit of `best` without each of its effects.
+/// Returns the fit of `best` without each of its effects.
 std::vector<RankedFit> without_each(const Likelihood& likelihood, const RankedFit& best,
                                     const ReportedWork& work) {
   std::vector<RankedFit> made(best.candidate.effects.size());
@@ -51,7 +50,7 @@ std::vector<RankedFit> drop_by_validation(const Likelihood& likelihood, RankedFi
   }
 }
 
-/// As the report wants it: with the derivatives of the residuals.
+/// Returns a candidate as the report wants it: with the derivatives of the residuals.
 Explanation explained(const Problem& problem, const Candidate& candidate) {
   return explain(problem, fit(problem, candidate, {.most_steps = 0}));
 }
@@ -66,10 +65,10 @@ void keep(const Problem& problem, const Candidate& candidate, Selection& made) {
 void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, ReportedWork& work,
             Selection& made) {
   constexpr const char* kStage = "ranked search";
-  RankedSets sets = ranked_search(problem, hypotheses, {}, work);
+  const Likelihood likelihood(problem, problem.estimation_runs());
+  RankedSets sets = ranked_search(likelihood, hypotheses, {}, work);
   if (!sets.is_complete) made.end = SearchEnd{kStage, {}};
   RankedFit& best = sets.best.front();
-  const Likelihood likelihood(problem, problem.estimation_runs());
   std::vector<RankedFit> others;
   try {
     others = drop_by_validation(likelihood, best, work);

@@ -88,10 +88,14 @@ Candidate Candidate::without(std::size_t index) const {
   return made;
 }
 
+std::size_t Candidate::values_before(std::size_t index) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < index; ++i) count += effects[i].parameters.size();
+  return count;
+}
+
 std::vector<double> Candidate::values_of(std::size_t index) const {
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < index; ++i) at += effects[i].parameters.size();
-  const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(values_before(index));
   return {first, first + static_cast<std::ptrdiff_t>(effects[index].parameters.size())};
 }
 

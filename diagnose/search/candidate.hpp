@@ -39,6 +39,8 @@ struct Candidate {
   /// With one effect more, at these values; without the `index`-th.
   Candidate with(const Hypothesis& hypothesis, const std::vector<double>& its_values) const;
   Candidate without(std::size_t index) const;
+  /// Returns how many parameters the effects before the `index`-th have.
+  std::size_t values_before(std::size_t index) const;
   /// The values of the `index`-th effect alone.
   std::vector<double> values_of(std::size_t index) const;
 };

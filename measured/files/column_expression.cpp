@@ -53,7 +53,7 @@ mu::Parser new_parser() {
 
 /// Letters, underscores, and all that is no ASCII, such as Greek.
 bool begins_name(char c) {
-  return arm::is_letter(c) || c == '_' || static_cast<unsigned char>(c) >= 0x80U;
+  return arm::is_letter(c) || c == '_' || arm::is_beyond_ascii(c);
 }
 
 [[noreturn]] void refuse_expression(const std::string& expression, const std::string& why) {

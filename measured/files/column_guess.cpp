@@ -1,5 +1,6 @@
 #include "measured/files/column_guess.hpp"
 
+#include "arm/ascii.hpp"
 #include "arm/input_error.hpp"
 #include "arm/number.hpp"
 #include "measured/files/column_lookup.hpp"
@@ -57,7 +58,7 @@ std::optional<std::string> standard(string_view base) {
 /// Whether it is a gauge far from the hub, by a number without a unit.
 bool is_place_unclear(string_view base) {
   const auto quantity = standard(base);
-  return quantity && is_doubtful_place(*quantity) && base.back() >= '0' && base.back() <= '9';
+  return quantity && is_doubtful_place(*quantity) && arm::is_digit(base.back());
 }
 
 /// Returns the change that the name of a column makes of its quantity; none for x2 alone.

@@ -1,5 +1,7 @@
 #include "measured/files/column_words.hpp"
 
+#include "arm/ascii.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -164,8 +166,8 @@ std::string other_torque_word(string_view name) {
   const auto is_upper = [](char c) { return c >= 'A' && c <= 'Z'; };
   for (std::size_t begin = 0; begin < name.size();) {
     std::size_t end = begin;
-    while (end < name.size() && (is_lower(name[end]) || is_upper(name[end]) ||
-                                 static_cast<unsigned char>(name[end]) >= 0x80U)) {
+    while (end < name.size() &&
+           (is_lower(name[end]) || is_upper(name[end]) || arm::is_beyond_ascii(name[end]))) {
       ++end;
       if (end < name.size() && is_lower(name[end - 1]) && is_upper(name[end])) break;
     }

@@ -1,5 +1,6 @@
 #include "measured/files/delimited_line.hpp"
 
+#include "arm/ascii.hpp"
 #include "measured/files/number_cell.hpp"
 #include "measured/files/time_stamp.hpp"
 
@@ -86,8 +87,8 @@ void LineSplitter::join_time_stamp() {
   const string_view last = cells_.back();
   string_view& before = cells_[cells_.size() - 2];
   const bool is_half = last == "AM" || last == "PM" || last == "am" || last == "pm";
-  const bool is_clock = last.find(':') != string_view::npos && last.front() >= '0' &&
-                        last.front() <= '9' && before.find(':') == string_view::npos;
+  const bool is_clock = last.find(':') != string_view::npos && arm::is_digit(last.front()) &&
+                        before.find(':') == string_view::npos;
   if (before.empty() || before.data() + before.size() > last.data()) return;
   const string_view both(before.data(),
                          static_cast<std::size_t>(last.data() + last.size() - before.data()));

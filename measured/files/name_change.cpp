@@ -42,12 +42,8 @@ constexpr string_view kFunctions[] = {"abs",  "sqrt", "sin",    "cos",  "tan", "
 /// Symbols of which a point behind them is a derivative, and no sign of a shortened word.
 constexpr string_view kSymbols[] = {"theta", "omega", "tau"};
 
-bool is_beyond_ascii(char c) {
-  return static_cast<unsigned char>(c) >= 0x80U;
-}
-
 bool begins_with_name(string_view text) {
-  return !text.empty() && (arm::is_letter(text.front()) || is_beyond_ascii(text.front()) ||
+  return !text.empty() && (arm::is_letter(text.front()) || arm::is_beyond_ascii(text.front()) ||
                            text.front() == '(' || text.front() == '|');
 }
 
@@ -146,7 +142,8 @@ std::optional<NameChange> number_behind(const std::string& text) {
     if (is_index || is_range) return std::nullopt;
   }
   const bool is_behind_name = arm::is_letter(text[last]) || arm::is_digit(text[last]) ||
-                              is_beyond_ascii(text[last]) || text[last] == ')' || text[last] == ']';
+                              arm::is_beyond_ascii(text[last]) || text[last] == ')' ||
+                              text[last] == ']';
   const bool is_exponent = last + 1 == sign && last > 0 &&
                            (text[last] == 'e' || text[last] == 'E') &&
                            arm::is_digit(text[last - 1]);

@@ -1,3 +1,4 @@
+#include "arm/ascii.hpp"
 #include "measured/files/column_name.hpp"
 #include "measured/files/column_words.hpp"
 #include "measured/files/name_change.hpp"
@@ -73,8 +74,8 @@ std::vector<NameWord> name_words(string_view name) {
   const auto kind_of = [](char c) {
     if (c >= 'a' && c <= 'z') return Kind::lower;
     if (c >= 'A' && c <= 'Z') return Kind::upper;
-    if (c >= '0' && c <= '9') return Kind::digit;
-    return static_cast<unsigned char>(c) >= 0x80U ? Kind::lower : Kind::other;
+    if (arm::is_digit(c)) return Kind::digit;
+    return arm::is_beyond_ascii(c) ? Kind::lower : Kind::other;
   };
   const auto is_decibel_at = [&](std::size_t i) {
     return name.substr(i).starts_with("dB") &&
@@ -111,7 +112,7 @@ std::string without(string_view name, const std::vector<NameWord>& words) {
   std::size_t at = 0;
   for (const auto& word : words) {
     std::size_t end = word.end;
-    while (end > word.begin && name[end - 1] >= '0' && name[end - 1] <= '9') --end;
+    while (end > word.begin && arm::is_digit(name[end - 1])) --end;
     rest.append(name.substr(at, word.begin - at));
     if (!rest.ends_with(' ')) rest += ' ';
     at = end;

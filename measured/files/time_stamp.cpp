@@ -115,9 +115,7 @@ bool read_date(string_view text, TimeStamp& stamp) {
   std::array<string_view, 3> parts;
   std::size_t named = parts.size();
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto is_of_name = [](char c) {
-      return arm::is_letter(c) || static_cast<unsigned char>(c) > 127;
-    };
+    const auto is_of_name = [](char c) { return arm::is_letter(c) || arm::is_beyond_ascii(c); };
     parts[i] = rest.digits();
     if (parts[i].empty() && named == parts.size()) {
       parts[i] = rest.take_while(is_of_name);

@@ -28,8 +28,7 @@ class RankedTest : public testing::Test {
     return *std::ranges::find(hypotheses_, effect, &Hypothesis::effect);
   }
   double cost_of(const Candidate& candidate) const {
-    return likelihood_.cost(
-        likelihood_.lines(*problem_.residuals(candidate, problem_.estimation_runs())));
+    return likelihood_.cost(likelihood_.lines_of(candidate).value());
   }
   Candidate friction(double torque_N_m) const {
     return problem_.as_filed().with(hypothesis("coulomb_friction"), {torque_N_m});
@@ -141,7 +140,7 @@ TEST_F(RankedTest, ASwapIsPredictedForTheEffectInTheWrongPlace) {
 }
 
 TEST_F(RankedTest, FindsBothEffectsAndNoOther) {
-  const RankedSets sets = ranked_search(problem_, hypotheses_, {}, work_);
+  const RankedSets sets = ranked_search(likelihood_, hypotheses_, {}, work_);
   ASSERT_TRUE(sets.is_complete);
   const Candidate& best = sets.best.front().candidate;
   EXPECT_EQ(best.labels(), (std::set<std::string>{"coulomb_friction", "payload_mass"}));
@@ -155,16 +154,18 @@ TEST_F(RankedTest, FindsBothEffectsAndNoOther) {
 TEST(RankedSearch, FindsNothingWhereNothingIsHidden) {
   const Experiment experiment = simulated_experiment({}, {.duration_s = 1.0});
   const Problem problem(experiment);
+  const Likelihood likelihood(problem, problem.estimation_runs());
   ReportedWork work({});
-  const RankedSets sets = ranked_search(problem, hypotheses(experiment), {}, work);
+  const RankedSets sets = ranked_search(likelihood, hypotheses(experiment), {}, work);
   EXPECT_EQ(sets.best.front().candidate.label(), "nothing");
 }
 
 TEST(RankedSearch, EndsWhereTheWorkIsCancelled) {
   const Experiment experiment = simulated_experiment({}, {.duration_s = 1.0});
   const Problem problem(experiment);
+  const Likelihood likelihood(problem, problem.estimation_runs());
   ReportedWork work([](std::string_view, double) { return false; });
-  EXPECT_THROW(ranked_search(problem, hypotheses(experiment), {}, work), Cancelled);
+  EXPECT_THROW(ranked_search(likelihood, hypotheses(experiment), {}, work), Cancelled);
 }
 
 }  // namespace

@@ -21,6 +21,13 @@ namespace {
 /// Lines of the lowest band, at least.
 constexpr Index kFewestLines = 8;
 
+/// Standard deviations that the squares of noise exceed their expectation by: of one of some 100
+/// bands, and of all together.
+constexpr double kBandChance = 4.0;
+constexpr double kTotalChance = 2.5;
+/// The factor to which the simulation's own error is known: it is that of the arm as filed.
+constexpr double kErrorKnown = 10.0;
+
 /// Flexible modes by which the truncation of a simulation is judged.
 constexpr int kFurtherModes = 4;
 
@@ -125,7 +132,7 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {
-      bands_.push_back({channel.first, channel.count, 0.0, true});
+      bands_.push_back({channel.first, channel.count, 0.0});
       continue;
     }
     const Index samples = transformed(channel);
@@ -140,7 +147,7 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
       const double followed =
           kDiscrepancy * kDiscrepancy * signal.segment(first, count).squaredNorm();
       bands_.push_back({channel.first + first, count,
-                        truncation.segment(channel.first + first, count).sum() + followed, false});
+                        truncation.segment(channel.first + first, count).sum() + followed});
       end = first;
     }
   }
@@ -173,23 +180,34 @@ double Likelihood::Band::sample_size() const {
 }
 
 double Likelihood::Band::cost(double sum) const {
-  const auto n = static_cast<double>(count);
-  if (!is_stated) return sample_size() * std::log((added + sum) / n);
-  if (sum <= n) return sum;
-  return n + sample_size() * std::log(sum / n) + (n - sample_size()) * (1.0 - n / sum);
+  const double excess = sum - static_cast<double>(count);
+  const double scale = sample_size() + added;
+  return sample_size() * (excess <= 0.0 ? excess / scale : std::log1p(excess / scale));
 }
 
 double Likelihood::Band::slope(double sum) const {
-  const auto n = static_cast<double>(count);
-  if (!is_stated) return sample_size() / (added + sum);
-  if (sum <= n) return 1.0;
-  return sample_size() / sum + (n - sample_size()) * n / (sum * sum);
+  const double excess = sum - static_cast<double>(count);
+  return sample_size() / (sample_size() + added + std::max(excess, 0.0));
 }
 
 double Likelihood::cost_of_squares(const VectorXd& squares) const {
   double cost = squares.tail(squares.size() - problem_.observations().values.size()).sum();
   for (const Band& band : bands_) cost += band.cost(squares.segment(band.first, band.count).sum());
   return cost;
+}
+
+bool Likelihood::is_noise(const VectorXd& lines) const {
+  double excess = 0.0;
+  double variance = 0.0;
+  for (const Band& band : bands_) {
+    const auto n = static_cast<double>(band.count);
+    const double own =
+        lines.segment(band.first, band.count).squaredNorm() - n - kErrorKnown * band.added;
+    if (own > kBandChance * std::sqrt(2.0 * n)) return false;
+    excess += own;
+    variance += 2.0 * n;
+  }
+  return excess <= kTotalChance * std::sqrt(variance);
 }
 
 VectorXd Likelihood::weights(const VectorXd& lines) const {

@@ -5,6 +5,7 @@
 #include "diagnose/search/start_places.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -21,6 +22,12 @@ using Eigen::VectorXd;
 /// A change of less than this part of the weighted lines is rounding.
 constexpr double kRounding = 1e-6;
 
+/// Parts of its middle size that an effect of several parameters is looked at with. What it changes
+/// is proportional to its size where that is small alone.
+constexpr std::array<double, 2> kBaseSizes = {0.3, 0.03};
+/// The part of its least sample of an effect of one parameter.
+constexpr double kSmallSize = 0.1;
+
 /// Returns the columns of `jacobian` but those by the effect at `index`.
 MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::size_t index) {
   const auto first = static_cast<Index>(set.nuisances.size() + set.values_before(index));
@@ -29,6 +36,27 @@ MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::siz
   made.leftCols(first) = jacobian.leftCols(first);
   made.rightCols(made.cols() - first) = jacobian.rightCols(made.cols() - first);
   return made;
+}
+
+/// Returns groups of values of an effect to look at (start_places.hpp), and of small parts of its
+/// sizes: of one parameter one group, of several one with each size.
+std::vector<std::vector<StartPlaces>> groups_of_samples(const Hypothesis& effect) {
+  const std::vector<StartPlaces> samples = samples_of(effect);
+  const auto of_size = [&](const StartPlaces& sample, double size) {
+    return places_of(effect, values_at(effect, sample, size));
+  };
+  if (!effect.size_parameter()) return {samples};
+  std::vector<std::vector<StartPlaces>> groups;
+  if (effect.parameters.size() == 1) {
+    groups.push_back(samples);
+    groups.back().push_back(of_size(samples.front(), kSmallSize));
+    return groups;
+  }
+  for (const double size : kBaseSizes) {
+    auto& group = groups.emplace_back();
+    for (const StartPlaces& sample : samples) group.push_back(of_size(sample, size));
+  }
+  return groups;
 }
 
 /// A set that an effect may be added to, as the weighted lines have it.
@@ -111,18 +139,26 @@ class Neighbourhood {
   /// effects.
   std::vector<Move> with(const Hypothesis& effect) const {
     const std::vector<Hypothesis>& own = base_.candidate.effects;
-    std::vector<Move> best(own.size() + 1);
-    const auto look_beside = [&](const Ground& ground, const std::vector<std::size_t>& moves) {
-      for (const StartPlaces& places : samples_of(effect)) {
-        const auto values = effects::values_at(effect.parameters, places);
-        const auto moved = lines_of(ground.set().with(effect, values));
-        if (!moved) continue;
-        const VectorXd change = *moved - ground.lines();
-        for (const std::size_t i : moves) {
-          Move move = ground_of(i).adding(effect, places, change);
-          if (i < own.size()) move.dropped = i;
-          const bool is_better = best[i].added == nullptr || move.score < best[i].score;
-          if (move.added != nullptr && is_better) best[i] = std::move(move);
+    std::vector<Move> made;
+    const auto look_beside = [&](const Ground& ground, const std::vector<std::size_t>& places_in) {
+      for (const auto& samples : groups_of_samples(effect)) {
+        std::vector<std::vector<Move>> moves(places_in.size());
+        for (const StartPlaces& places : samples) {
+          const auto values = effects::values_at(effect.parameters, places);
+          const auto moved = lines_of(ground.set().with(effect, values));
+          if (!moved) continue;
+          const VectorXd change = *moved - ground.lines();
+          for (std::size_t k = 0; k < places_in.size(); ++k) {
+            Move move = ground_of(places_in[k]).adding(effect, places, change);
+            if (move.added == nullptr) continue;
+            if (places_in[k] < own.size()) move.dropped = places_in[k];
+            moves[k].push_back(std::move(move));
+          }
+        }
+        for (auto& of_place : moves) {
+          std::ranges::stable_sort(of_place, {}, &Move::score);
+          of_place.resize(std::min(of_place.size(), effect.parameters.size()));
+          std::ranges::move(of_place, std::back_inserter(made));
         }
       }
     };
@@ -140,8 +176,7 @@ class Neighbourhood {
     }
     additive.push_back(own.size());
     if (is_new) look_beside(*whole_, additive);
-    std::erase_if(best, [](const Move& one) { return one.added == nullptr; });
-    return best;
+    return made;
   }
 
  private:

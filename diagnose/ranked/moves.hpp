@@ -19,8 +19,9 @@ struct Move {
 };
 
 /// Returns all moves of `base`, those with the lowest predicted score first: of each effect of
-/// `others` the best of a few values (start_places.hpp). Effects that change nothing, or with which
-/// there is no arm, are left out.
+/// `others` the best of a few values (start_places.hpp), and of one with several parameters the
+/// best ones of a few shapes. Effects that change nothing, or with which there is no arm, are left
+/// out.
 ///
 /// The prediction is the Lagrange multiplier test [Rao1948, Silvey1959] on weighted lines. With y
 /// the lines of the set, or of the set without the dropped effect, c the change that the added one

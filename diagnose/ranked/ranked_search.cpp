@@ -19,39 +19,58 @@ namespace {
 
 using Labels = std::set<std::string>;
 
+/// A fit that shows which of several starts are worth going on with, and one that goes on.
+constexpr RankedFitOptions kFirstLook = {.most_steps = 3, .tolerance = 0.5, .takes_secants = true};
 constexpr RankedFitOptions kLook = {.most_steps = 10, .tolerance = 0.5, .takes_secants = true};
+
+/// The moves of a set that are fitted: `predicted` are those that are predicted to lower the score
+/// most. `broad` ones also add every effect of several parameters, whether or not that is predicted
+/// to lower it: the prediction knows a few of their shapes, and a fit changes these. A climb takes
+/// them first, and where no predicted move lowers the score.
+enum class Looks { predicted, broad };
+
+/// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
+enum class Climb { to_noise, to_the_end };
 
 /// One climb on a rung of the ladder, which has a part of the data, or all.
 class Rung {
  public:
   Rung(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-       const RankedOptions& options, const ReportedWork& work)
+       const RankedOptions& options, const ReportedWork& work, Climb end)
       : likelihood_(likelihood),
         least_time_s_(options.least_time *
                       scales_of(likelihood.problem().experiment()).shortest_time_s),
         hypotheses_(hypotheses),
         options_(options),
-        work_(work) {}
+        work_(work),
+        end_(end) {}
 
-  /// Fits the sets of the beam to these data, and replaces them by neighbours while the best score
-  /// falls.
-  void climb(std::vector<RankedFit>& beam, std::size_t width) {
+  /// Fits the sets of the beam to these data, or the arm as filed where none can be; the best
+  /// first.
+  void fit(std::vector<RankedFit>& beam) {
     in_parallel(beam.size(), [&](std::size_t i) { beam[i] = fitted(beam[i].candidate); });
     std::erase_if(beam, [](const RankedFit& one) { return !one.is_possible(); });
     if (beam.empty()) beam.push_back(fitted(likelihood_.problem().as_filed()));
+    keep_best(beam, beam.size());
+  }
+
+  /// Replaces fitted sets of the beam by neighbours while the best score falls.
+  void climb(std::vector<RankedFit>& beam, std::size_t width, Looks first_looks) {
     if (!beam.front().is_possible()) return;
     for (const RankedFit& one : beam) met_.insert(one.candidate.labels());
     keep_best(beam, width);
-    for (bool falls = true; falls;) {
+    for (Looks looks = first_looks; !is_over(beam.front());) {
       const double before = beam.front().score;
       std::vector<RankedFit> neighbours;
       for (const RankedFit& base : beam) {
-        if (moves_.contains(base.candidate.labels())) continue;
-        std::ranges::move(neighbours_of(base), std::back_inserter(neighbours));
+        if (!expanded_.insert({base.candidate.labels(), looks}).second) continue;
+        std::ranges::move(neighbours_of(base, looks), std::back_inserter(neighbours));
       }
       std::ranges::move(neighbours, std::back_inserter(beam));
       keep_best(beam, width);
-      falls = beam.front().score < before;
+      const bool falls = beam.front().score < before;
+      if (!falls && looks == first_looks) break;
+      looks = falls ? Looks::predicted : first_looks;
     }
     beam.front() = fitted(beam.front().candidate);
   }
@@ -60,11 +79,8 @@ class Rung {
   /// families of its effects; all of a set that cannot be computed.
   std::vector<Hypothesis> shortlist(const RankedFit& set, std::size_t most) {
     if (!set.is_possible()) return hypotheses_;
-    const auto known = moves_.find(set.candidate.labels());
-    const std::vector<Move> moves =
-        known != moves_.end() ? known->second : moves_of(likelihood_, set, hypotheses_, work_);
     std::set<std::string> kept;
-    for (const Move& move : moves) {
+    for (const Move& move : moves_from(set)) {
       if (move.added != nullptr && kept.size() < most) kept.insert(move.added->label());
     }
     std::vector<Hypothesis> made;
@@ -78,33 +94,59 @@ class Rung {
   }
 
  private:
-  static void keep_best(std::vector<RankedFit>& beam, std::size_t width) {
-    std::ranges::stable_sort(beam, {}, &RankedFit::score);
-    beam.resize(std::min(beam.size(), width));
+  bool is_over(const RankedFit& best) const {
+    return end_ == Climb::to_noise && likelihood_.is_noise(best.lines);
+  }
+
+  /// Keeps the fits of the lowest score, one a set of effects.
+  static void keep_best(std::vector<RankedFit>& fits, std::size_t most) {
+    std::ranges::stable_sort(fits, {}, &RankedFit::score);
+    std::set<Labels> kept;
+    std::erase_if(fits, [&](const RankedFit& one) {
+      return kept.size() == most || !kept.insert(one.candidate.labels()).second;
+    });
+  }
+
+  /// Returns the moves of `set`, which are computed once.
+  const std::vector<Move>& moves_from(const RankedFit& set) {
+    const auto [at, is_new] = moves_.try_emplace(set.candidate.labels());
+    if (is_new) at->second = moves_of(likelihood_, set, hypotheses_, work_);
+    return at->second;
   }
 
   RankedFit fitted(const Candidate& start) const { return ranked_fit(likelihood_, start, work_); }
-  RankedFit look(const Move& move, const RankedFit& base) const {
-    return ranked_fit(likelihood_, move.of(base.candidate), work_, kLook, &base);
+
+  /// Returns the moves of `base` that are fitted, to sets that were not met before.
+  std::vector<Move> looked_at(const RankedFit& base, Looks kind) {
+    std::vector<Move> moves = moves_from(base);
+    std::size_t looks = 0;
+    std::set<Labels> new_sets;
+    std::erase_if(moves, [&](const Move& one) {
+      const bool is_broad = kind == Looks::broad && one.added != nullptr && !one.dropped &&
+                            one.added->parameters.size() > 1;
+      if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
+      const Labels labels = one.of(base.candidate).labels();
+      if (met_.insert(labels).second) new_sets.insert(labels);
+      if (!new_sets.contains(labels)) return true;
+      if (!is_broad) ++looks;
+      return false;
+    });
+    return moves;
   }
 
-  /// Returns fits of the moves that are predicted to lower the score most, to sets that were not
-  /// met before.
-  std::vector<RankedFit> neighbours_of(const RankedFit& base) {
-    std::vector<Move> moves = moves_of(likelihood_, base, hypotheses_, work_);
-    moves_[base.candidate.labels()] = moves;
-    std::size_t looks = 0;
-    std::erase_if(moves, [&](const Move& one) {
-      const bool is_looked_at = looks < options_.looks && one.score < base.score &&
-                                met_.insert(one.of(base.candidate).labels()).second;
-      looks += is_looked_at ? 1 : 0;
-      return !is_looked_at;
-    });
+  /// Returns fits of the moves of `base` (looked_at): those of the lowest score after a first look.
+  std::vector<RankedFit> neighbours_of(const RankedFit& base, Looks looks) {
+    const std::vector<Move> moves = looked_at(base, looks);
     std::vector<RankedFit> fits(moves.size());
-    in_parallel(moves.size(), [&](std::size_t i) { fits[i] = look(moves[i], base); });
-    std::erase_if(fits, [&](const RankedFit& one) {
-      return !one.is_possible() || !can_be_timed(one.candidate);
+    in_parallel(moves.size(), [&](std::size_t i) {
+      fits[i] = ranked_fit(likelihood_, moves[i].of(base.candidate), work_, kFirstLook, &base);
     });
+    std::erase_if(fits, [](const RankedFit& one) { return !one.is_possible(); });
+    keep_best(fits, options_.looks);
+    in_parallel(fits.size(), [&](std::size_t i) {
+      fits[i] = ranked_fit(likelihood_, fits[i].candidate, work_, kLook, &fits[i]);
+    });
+    std::erase_if(fits, [&](const RankedFit& one) { return !can_be_timed(one.candidate); });
     return fits;
   }
 
@@ -122,8 +164,10 @@ class Rung {
   const std::vector<Hypothesis>& hypotheses_;
   const RankedOptions& options_;
   const ReportedWork& work_;
-  std::set<Labels> met_;                       ///< sets that were fitted
-  std::map<Labels, std::vector<Move>> moves_;  ///< of those whose neighbours were
+  Climb end_;
+  std::set<Labels> met_;                         ///< sets that were fitted
+  std::set<std::pair<Labels, Looks>> expanded_;  ///< whose neighbours were
+  std::map<Labels, std::vector<Move>> moves_;
 };
 
 /// Returns the hypotheses that an arm has in one case of five (effects::Likely).
@@ -155,17 +199,28 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
   std::vector<Hypothesis> searched = hypotheses;
   std::vector<Hypothesis> common = common_of(hypotheses);
   std::size_t most = hypotheses.size();
-  const auto climb_afresh = [&](const Likelihood& part, std::size_t width) {
-    for (const auto* effects : {&common, &searched}) {
-      std::vector<RankedFit> fresh(1);
-      fresh.front().candidate = problem.as_filed();
-      Rung(part, *effects, options, work).climb(fresh, width);
-      std::ranges::move(fresh, std::back_inserter(beam));
-    }
+  bool has_climbed = false;
+  const auto climb_afresh = [&](const Likelihood& part, const std::vector<Hypothesis>& effects,
+                                std::size_t width, Climb end) {
+    std::vector<RankedFit> fresh;
+    Rung rung(part, effects, options, work, end);
+    rung.fit(fresh);
+    rung.climb(fresh, width, Looks::broad);
+    std::ranges::move(fresh, std::back_inserter(beam));
   };
-  const auto climb = [&](const Likelihood& part, std::size_t width) {
-    Rung rung(part, searched, options, work);
-    rung.climb(beam, width);
+  const auto climb = [&](const Likelihood& part, std::size_t width, Climb end) {
+    Rung rung(part, searched, options, work, end);
+    rung.fit(beam);
+    const RankedFit& best = beam.front();
+    const bool is_noise = best.is_possible() && part.is_noise(best.lines);
+    if (!is_noise) {
+      climb_afresh(part, common, width, end);
+      if (!has_climbed) climb_afresh(part, hypotheses, width, end);
+    }
+    const bool is_broad = !is_noise && !has_climbed;
+    rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
+    has_climbed = has_climbed || !is_noise;
+    if (!has_climbed) return;
     most /= options.halving;
     searched = rung.shortlist(beam.front(), most);
   };
@@ -179,13 +234,11 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
       const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
                          {.flexible_modes = modes});
       const Likelihood of_part(part, part.estimation_runs());
-      climb_afresh(of_part, width);
-      climb(of_part, width);
-      width = 1;
+      climb(of_part, width, Climb::to_noise);
+      width = has_climbed ? 1 : width;
     }
     work.tell("effects on all data", 0.5);
-    if (beam.empty()) climb_afresh(likelihood, width);
-    climb(likelihood, width);
+    climb(likelihood, width, Climb::to_the_end);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;

@@ -64,7 +64,8 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   const Candidate& chosen = selection.chosen.fit.candidate;
   const Hypothesis& effect = chosen.effects[index];
   const Explanation without =
-      chosen.effects.size() == 1
+      !selection.without.empty() ? selection.without[index]
+      : chosen.effects.size() == 1
           ? selection.nothing
           : explain(selection.problem, fit(selection.problem, chosen.without(index)));
   Cause cause;
@@ -85,6 +86,15 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
     // Of the same effect it is another sensor.
     add(rival.effect->effect == effect.effect ? rival.effect->label() : rival.effect->effect);
     std::ranges::for_each(rival.effect->other_names, add);
+  }
+  cause.family = to_string(effect.entry->family);
+  if (!selection.evidence.empty()) {
+    cause.figures = selection.evidence[index];
+    const bool has_rival = std::ranges::any_of(rivals, [&](const Rival& rival) {
+      return rival.odds <= kIndistinguishableOdds &&
+             rival.effect->entry->family != effect.entry->family;
+    });
+    cause.grade = grade_of(*cause.figures, has_rival, selection.chosen.leaves_noise());
   }
   cause.evidence =
       evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);

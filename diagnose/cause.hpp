@@ -3,6 +3,7 @@
 #include "diagnose/search/posterior.hpp"
 #include "diagnose/search/selection.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct Cause {
   double confidence = 0.0;
   /// The same of this effect or one of `confusable_with` in its place.
   double class_confidence = 0.0;
+  /// By the ranked search.
+  Grade grade = Grade::candidate;
+  std::string family;  ///< in words
+  std::optional<EffectEvidence> figures = {};
   double share = 0.0;  ///< explained of the excess residual without it, the others refitted
   /// Effects that these data do not distinguish from it: other names of the same model, and rivals
   /// (rivals.hpp).

@@ -75,6 +75,31 @@ class Rung {
     beam.front() = fitted(beam.front().candidate);
   }
 
+  /// Adds fits of the swaps of the best set that are predicted to do nearly as well to the beam,
+  /// the best of each family in the place of each effect.
+  void add_rivals(std::vector<RankedFit>& beam) {
+    const RankedFit best = beam.front();
+    if (!best.is_possible()) return;
+    std::vector<Move> near = moves_from(best);
+    std::set<std::pair<std::size_t, effects::Family>> met;
+    std::erase_if(near, [&](const Move& one) {
+      return !one.dropped || one.added == nullptr || one.score > best.score + options_.near ||
+             !met.emplace(*one.dropped, one.added->entry->family).second;
+    });
+    std::vector<RankedFit> rivals(near.size());
+    in_parallel(near.size(), [&](std::size_t i) {
+      rivals[i] = ranked_fit(likelihood_, near[i].of(best.candidate), work_, kLook, &best);
+    });
+    std::erase_if(rivals, [&](const RankedFit& one) {
+      return !one.is_possible() || !can_be_timed(one.candidate);
+    });
+    std::ranges::move(rivals, std::back_inserter(beam));
+    keep_best(beam, beam.size());
+    if (beam.front().candidate.labels() != best.candidate.labels()) {
+      beam.front() = fitted(beam.front().candidate);
+    }
+  }
+
   /// Returns the `most` effects whose moves of this set are predicted to be best, and those of the
   /// families of its effects; all of a set that cannot be computed.
   std::vector<Hypothesis> shortlist(const RankedFit& set, std::size_t most) {
@@ -220,7 +245,8 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
     const bool is_broad = !is_noise && !has_climbed;
     rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
     has_climbed = has_climbed || !is_noise;
-    if (!has_climbed) return;
+    if (end == Climb::to_the_end) rung.add_rivals(beam);
+    if (!has_climbed || end == Climb::to_the_end) return;
     most /= options.halving;
     searched = rung.shortlist(beam.front(), most);
   };

@@ -17,14 +17,18 @@ struct RankedOptions {
   /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
   /// known better.
   double least_time = 0.1;
+  /// A swap that is predicted to raise the score by less than this is fitted, as a rival.
+  double near = 10.0;
   /// Flexible modes on the rungs below all data <= this.
   int coarse_modes = 6;
   /// Samples of each run on the rungs below all data.
   std::array<std::size_t, 3> rungs = {400, 1600, 6400};
 };
 
-/// The sets of effects that a search ends with, the best first.
+/// The sets of effects that a search ends with.
 struct RankedSets {
+  /// The best first; those behind it are the others of the last beam, and rivals: the best with one
+  /// effect exchanged for another, one of a family.
   std::vector<RankedFit> best = {};
   bool is_complete = true;  ///< fitted to all estimation runs
 };

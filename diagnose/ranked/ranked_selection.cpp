@@ -1,6 +1,7 @@
 #include "diagnose/ranked/ranked_selection.hpp"
 
 #include "diagnose/parallel.hpp"
+#include "diagnose/ranked/evidence_of_fit.hpp"
 #include "diagnose/ranked/ranked_search.hpp"
 
 #include <algorithm>
@@ -14,6 +15,10 @@ namespace flexarm::diagnose {
 
 namespace {
 
+/// A set whose score is higher by this or more has a probability below 1 %: its parameters are not
+/// reported.
+constexpr double kReported = 9.0;
+
 /// Returns -2 ln L of the validation runs by a candidate; infinite for one that cannot be computed.
 double held_out_cost(const Likelihood& held_out, const Candidate& candidate) {
   const auto lines = held_out.lines_of(candidate);
@@ -25,7 +30,8 @@ std::vector<RankedFit> without_each(const Likelihood& likelihood, const RankedFi
                                     const ReportedWork& work) {
   std::vector<RankedFit> made(best.candidate.effects.size());
   in_parallel(made.size(), [&](std::size_t i) {
-    made[i] = ranked_fit(likelihood, best.candidate.without(i), work);
+    made[i] =
+        ranked_fit(likelihood, best.candidate.without(i), work, {.takes_secants = true}, &best);
   });
   return made;
 }
@@ -45,20 +51,20 @@ std::vector<RankedFit> drop_by_validation(const Likelihood& likelihood, RankedFi
     }
     const auto least = std::ranges::min_element(costs);
     if (!(*least < cost)) return without;
-    cost = *least;
-    best = std::move(without[static_cast<std::size_t>(least - costs.begin())]);
+    best = ranked_fit(likelihood,
+                      without[static_cast<std::size_t>(least - costs.begin())].candidate, work);
+    cost = held_out_cost(held_out, best.candidate);
   }
 }
 
-/// Returns a candidate as the report wants it: with the derivatives of the residuals.
-Explanation explained(const Problem& problem, const Candidate& candidate) {
-  return explain(problem, fit(problem, candidate, {.most_steps = 0}));
-}
-
-void keep(const Problem& problem, const Candidate& candidate, Selection& made) {
-  if (candidate.effects.empty()) return;
-  auto& sets = made.sets_like(candidate);
-  if (find_set(sets, candidate) == sets.end()) sets.push_back(explained(problem, candidate));
+/// Returns a fit as the report wants it; with the derivatives of the residuals, or without.
+Explanation explained(const Problem& problem, const RankedFit& made, bool has_derivatives) {
+  Explanation explanation = explain(
+      problem,
+      fit(problem, made.candidate, {.most_steps = 0, .is_differenced_at_end = has_derivatives}));
+  explanation.score = made.score;
+  explanation.fit.converged = made.converged;
+  return explanation;
 }
 
 /// Throws Cancelled where the work is cancelled, but not after its deadline.
@@ -69,23 +75,29 @@ void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, R
   RankedSets sets = ranked_search(likelihood, hypotheses, {}, work);
   if (!sets.is_complete) made.end = SearchEnd{kStage, {}};
   RankedFit& best = sets.best.front();
-  std::vector<RankedFit> others;
+  std::vector<RankedFit> without;
   try {
-    others = drop_by_validation(likelihood, best, work);
-    for (std::size_t i = 0; i < best.candidate.effects.size(); ++i) {
-      const Candidate alone =
-          problem.as_filed().with(best.candidate.effects[i], best.candidate.values_of(i));
-      others.push_back(ranked_fit(likelihood, alone, work));
-    }
+    without = drop_by_validation(likelihood, best, work);
+    made.evidence = evidence_for_each(likelihood, best, without, work);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.end = SearchEnd{kStage, {}};
   }
-  made.nothing = explained(problem, problem.as_filed());
-  made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best.candidate);
-  made.chosen.fit.converged = best.converged;
-  std::ranges::move(sets.best, std::back_inserter(others));
-  for (const RankedFit& one : others) keep(problem, one.candidate, made);
+  work.lift_deadline();
+  const RankedFit filed = ranked_fit(likelihood, problem.as_filed(), work);
+  made.nothing = explained(problem, filed, true);
+  made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best, true);
+  const auto keep = [&](const RankedFit& one) {
+    if (one.candidate.effects.empty()) return;
+    auto& kept = made.sets_like(one.candidate);
+    if (find_set(kept, one.candidate) != kept.end()) return;
+    kept.push_back(explained(problem, one, one.score < best.score + kReported));
+  };
+  for (const RankedFit& one : sets.best) keep(one);
+  for (const RankedFit& one : without) {
+    keep(one);
+    made.without.push_back(explained(problem, one, false));
+  }
   sort_by_fit(made.singles);
   sort_by_fit(made.combinations);
 }

@@ -42,7 +42,6 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
   }
   const double cost_of_cause = 2.0 * std::log(static_cast<double>(hypotheses));
   const double cost_of_else = -2.0 * std::log(options.prior_of_something_else);
-  double best = std::numeric_limits<double>::infinity();
   for (const Explanation* set : sets) {
     const Candidate& candidate = set->fit.candidate;
     const double excess = std::max(0.0, squares_of(*set) - least);
@@ -52,8 +51,19 @@ Posterior::Posterior(std::vector<const Explanation*> sets, std::size_t hypothese
                         kParameterCost * static_cast<double>(candidate.values.size()) +
                         (is_complete ? 0.0 : cost_of_else);
     sets_.push_back({set, 0.0, cost, is_complete});
-    best = std::min(best, cost);
   }
+  weigh();
+}
+
+Posterior::Posterior(const std::vector<const Explanation*>& scored_sets) {
+  for (const Explanation* set : scored_sets) {
+    sets_.push_back({set, 0.0, *set->score, set->leaves_noise()});
+  }
+  weigh();
+}
+
+void Posterior::weigh() {
+  const double best = std::ranges::min(sets_, {}, &Weighed::cost).cost;
   double sum = 0.0;
   for (Weighed& weighed : sets_) {
     weighed.cost -= best;

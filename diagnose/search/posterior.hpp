@@ -37,6 +37,9 @@ class Posterior {
   /// `sets` must outlive the object: no cause, and sets of causes, each set once.
   Posterior(std::vector<const Explanation*> sets, std::size_t hypotheses,
             const SelectionOptions& options);
+  /// By the scores of the sets (Explanation::score), which all must have: exp(-score/2) over their
+  /// sum.
+  explicit Posterior(const std::vector<const Explanation*>& scored_sets);
 
   /// Of all sets that have this cause; shared evenly with its `other_names`.
   double of(const Hypothesis& cause) const;
@@ -54,6 +57,9 @@ class Posterior {
     double cost;  ///< -2 ln of likelihood times prior, beyond the best set's
     bool is_complete;
   };
+  /// Sets the probabilities from the costs, which are then beyond the best set's.
+  void weigh();
+
   std::vector<Weighed> sets_;
 };
 inline constexpr double kDiscrepancyFreedom = 6.0;

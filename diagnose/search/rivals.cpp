@@ -81,6 +81,14 @@ Posterior posterior_of(const Selection& selection, const SelectionOptions& optio
            !clears_bars(explanation, chosen, options);
   };
   if (is_new(chosen)) sets.push_back(&chosen);
+  if (chosen.score) {
+    for (const auto* found : {&selection.singles, &selection.combinations}) {
+      for (const Explanation& set : *found) {
+        if (set.score && is_new(set)) sets.push_back(&set);
+      }
+    }
+    return Posterior(sets);
+  }
   for (const auto* found : {&selection.singles, &selection.combinations}) {
     for (const Explanation& explanation : *found) {
       if (is_inconsistent(explanation) || adds_nothing(explanation)) continue;

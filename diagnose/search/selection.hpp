@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/evidence.hpp"
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/posterior.hpp"
 #include "diagnose/search/reported_work.hpp"
@@ -49,6 +50,10 @@ struct Selection {
   std::optional<TorqueTiming> timing = {};  ///< by which torques were corrected
   /// That explains a good part of the excess residual, but does not leave noise: undecided.
   std::optional<TorqueTiming> undecided_timing = {};
+  /// By the ranked search, of each effect of the chosen set: the evidence for it, and the set
+  /// without it.
+  std::vector<EffectEvidence> evidence = {};
+  std::vector<Explanation> without = {};
   std::optional<SearchEnd> end = {};  ///< of a search that is incomplete
   bool cancelled = false;
 

@@ -23,6 +23,26 @@ Json gain_json(const diagnose::Gain& gain) {
           {"numerical_error", gain.numerical_error}};
 }
 
+/// Of a cause with grades.
+Json figures_json(const diagnose::Cause& cause) {
+  const diagnose::EffectEvidence& figures = *cause.figures;
+  Json runs = Json::array();
+  for (const auto& run : figures.runs) {
+    runs.push_back({{"run", run.run}, {"values", run.values}, {"std_errors", run.std_errors}});
+  }
+  return {{"grade", to_string(cause.grade)},
+          {"family", cause.family},
+          {"loss",
+           {{"score", figures.score},
+            {"estimation", figures.estimation},
+            {"validation", figures.held_out ? Json(*figures.held_out) : Json(nullptr)},
+            {"nrmse_without", figures.error_without},
+            {"nrmse_increase", figures.error_increase},
+            {"nrmse_increase_std_error", figures.error_increase_std_error}}},
+          {"runs", runs},
+          {"agreement_p_value", figures.agreement}};
+}
+
 Json cause_json(const diagnose::Cause& cause) {
   Json parameters = Json::object();
   for (const auto& parameter : cause.parameters) {
@@ -36,6 +56,7 @@ Json cause_json(const diagnose::Cause& cause) {
   json["class_confidence"] = cause.class_confidence;
   json["explained_share"] = explained_share(cause.share);
   json["confusable_with"] = cause.confusable_with;
+  if (cause.figures) json.update(figures_json(cause));
   json["evidence"] = cause.evidence;
   json["evidence_against"] = cause.refuted_by;
   return json;

@@ -1,5 +1,7 @@
 #include "report/tables/diagnosis_tables.hpp"
 
+#include "report/tables/evidence_tables.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -194,6 +196,7 @@ std::string implausible_numbers_text(const diagnose::Diagnosis& diagnosis) {
 }
 
 std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
+  if (has_grades(diagnosis)) return graded_verdict_text(diagnosis);
   const double before = 100.0 * diagnosis.estimation.before;
   const double after = 100.0 * diagnosis.estimation.after;
   const std::string floor = floor_of(diagnosis.estimation);

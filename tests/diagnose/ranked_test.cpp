@@ -1,3 +1,4 @@
+#include "diagnose/ranked/evidence_of_fit.hpp"
 #include "diagnose/ranked/moves.hpp"
 #include "diagnose/ranked/ranked_search.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -90,6 +91,28 @@ TEST_F(RankedTest, CostRanksWhateverTheNoiseIs) {
   EXPECT_LT(cost(0.5 * kCoulomb_N_m), cost(0.0));
 }
 
+TEST_F(RankedTest, ABandCountsByItsSampleSizeFarFromNoiseAndByItsLinesNearIt) {
+  const ObservedChannel& channel = problem_.observations().channels.front();
+  VectorXd lines = VectorXd::Zero(problem_.residual_count());
+  EXPECT_LE(likelihood_.weights(lines)(channel.first + 200), 1.0);
+  // All lines of an octave: the derivative of m ln S is m/S.
+  lines.segment(channel.first, channel.count).setConstant(1e6);
+  const VectorXd weights = likelihood_.weights(lines);
+  const Index samples = channel.count / 4;
+  EXPECT_NEAR(weights.segment(channel.first + channel.count / 2, samples).mean() *
+                  static_cast<double>(channel.count / 2) * 1e12,
+              Likelihood::kSampleSize, 0.1 * Likelihood::kSampleSize);
+}
+
+TEST_F(RankedTest, NoiseIsLeftByTheHiddenEffectsAlone) {
+  const auto is_noise = [&](const Candidate& start) {
+    return likelihood_.is_noise(ranked_fit(likelihood_, start, work_).lines);
+  };
+  EXPECT_TRUE(is_noise(friction(kCoulomb_N_m).with(hypothesis("payload_mass"), {kMass_kg})));
+  EXPECT_FALSE(is_noise(friction(kCoulomb_N_m)));
+  EXPECT_FALSE(is_noise(problem_.as_filed()));
+}
+
 TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
   const RankedFit fit = ranked_fit(likelihood_, friction(0.3 * kCoulomb_N_m), work_);
   ASSERT_TRUE(fit.is_possible());
@@ -151,6 +174,48 @@ TEST_F(RankedTest, FindsBothEffectsAndNoOther) {
   }
 }
 
+TEST_F(RankedTest, EvidenceIsWhatIsLostWithoutAnEffect) {
+  const RankedFit both = ranked_fit(
+      likelihood_, friction(kCoulomb_N_m).with(hypothesis("payload_mass"), {kMass_kg}), work_);
+  std::vector<RankedFit> without;
+  for (const std::size_t i : {0u, 1u}) {
+    without.push_back(ranked_fit(likelihood_, both.candidate.without(i), work_));
+  }
+  const auto evidence = evidence_for_each(likelihood_, both, without, work_);
+  ASSERT_EQ(evidence.size(), 2u);
+  for (const EffectEvidence& one : evidence) {
+    EXPECT_GT(one.estimation, kBeyondDoubt);
+    EXPECT_GT(one.held_out.value(), kBeyondDoubt);
+    EXPECT_GT(one.error_increase, 2.0 * one.error_increase_std_error);
+    EXPECT_GT(one.error_without, one.error_increase);
+    EXPECT_GT(one.agreement, kLeastAgreement);
+    EXPECT_GE(one.runs.size(), 2u);
+    EXPECT_EQ(grade_of(one, false, true), Grade::established);
+  }
+  for (const RunEstimate& run : evidence.front().runs) {
+    // Four standard errors and the step from one minimum to that of a run.
+    EXPECT_NEAR(run.values.front(), kCoulomb_N_m, 4.0 * run.std_errors.front() + 1e-4);
+  }
+}
+
+TEST(RankedSearch, FindsTheShapeOfAnEffectThatSeveralSimpleOnesImitate) {
+  const arm::Effects hidden = {effects::named(
+      "tuned_mass",
+      {{"mass", 0.003}, {"frequency", 30.0}, {"damping_ratio", 0.02}, {"position", 0.3}})};
+  const Experiment experiment = simulated_experiment(hidden, {.duration_s = 1.0});
+  const Problem problem(experiment);
+  const Likelihood likelihood(problem, problem.estimation_runs());
+  ReportedWork work({});
+  const RankedSets sets =
+      ranked_search(likelihood,
+                    named(experiment, {"tuned_mass", "hub_inertia", "beam_length", "linear_density",
+                                       "payload_mass", "flexural_rigidity", "root_compliance"}),
+                    {}, work);
+  const Candidate& best = sets.best.front().candidate;
+  ASSERT_EQ(best.label(), "tuned_mass");
+  EXPECT_NEAR(best.values[1], 30.0, 1.0);
+}
+
 TEST(RankedSearch, FindsNothingWhereNothingIsHidden) {
   const Experiment experiment = simulated_experiment({}, {.duration_s = 1.0});
   const Problem problem(experiment);
@@ -158,6 +223,25 @@ TEST(RankedSearch, FindsNothingWhereNothingIsHidden) {
   ReportedWork work({});
   const RankedSets sets = ranked_search(likelihood, hypotheses(experiment), {}, work);
   EXPECT_EQ(sets.best.front().candidate.label(), "nothing");
+}
+
+TEST(Grade, NeedsHeldOutDataAndForTheHighestAllElse) {
+  EffectEvidence evidence{.held_out = 2.0 * kBeyondDoubt,
+                          .error_increase = 0.03,
+                          .error_increase_std_error = 0.01,
+                          .agreement = 0.5};
+  EXPECT_EQ(grade_of(evidence, false, true), Grade::established);
+  EXPECT_EQ(grade_of(evidence, true, true), Grade::supported);
+  EXPECT_EQ(grade_of(evidence, false, false), Grade::supported);
+  evidence.agreement = 0.1 * kLeastAgreement;
+  EXPECT_EQ(grade_of(evidence, false, true), Grade::supported);
+  evidence.error_increase_std_error = 0.02;
+  EXPECT_EQ(grade_of(evidence, false, true), Grade::candidate);
+  evidence.error_increase_std_error = 0.01;
+  evidence.held_out = 0.5 * kBeyondDoubt;
+  EXPECT_EQ(grade_of(evidence, false, true), Grade::candidate);
+  evidence.held_out.reset();
+  EXPECT_EQ(grade_of(evidence, false, true), Grade::candidate);
 }
 
 TEST(RankedSearch, EndsWhereTheWorkIsCancelled) {

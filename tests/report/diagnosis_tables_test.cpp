@@ -1,6 +1,7 @@
 #include "report/tables/diagnosis_tables.hpp"
 
 #include "report/json/diagnosis_json.hpp"
+#include "report/tables/evidence_tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,6 +49,29 @@ TEST(VerdictText, HasTheUncertainNumberThatExplainsTheDataInFront) {
               StartsWith("Explained by beam.length = 0.51 +- 0.0002 m: the residuals are noise."));
   EXPECT_THAT(verdict_text(made), Not(HasSubstr("beam.thickness")));
   EXPECT_THAT(verdict_text(made), HasSubstr("NRMSE falls from 107 to 1 %"));
+}
+
+TEST(GradedVerdictText, HasCausesWithValuesAndGradesAndWhatIsLeft) {
+  Diagnosis made = with_gain(Verdict::partly_explained);
+  made.validation = {.before = 65.2, .after = 0.65, .noise_floor = 0.01};
+  made.causes = {cause("coulomb_friction", 0.9)};
+  made.causes[0].parameters = {{.name = "torque", .value = 0.021, .unit = "N m"}};
+  made.causes[0].confusable_with = {"torque_dead_zone"};
+  made.causes[0].grade = diagnose::Grade::supported;
+  made.causes[0].figures = diagnose::EffectEvidence{.estimation = 40.0, .error_without = 0.8};
+  diagnose::BandError& band = made.symptoms.bands.emplace_back();
+  band.run_id = "low";
+  band.sensor = "hub_angle";
+  band.band = {"around mode 1", 2.0, 9.0};
+  band.after = 0.5;
+  band.noise = 0.01;
+  EXPECT_EQ(verdict_text(made),
+            "Partly explained: coulomb_friction 0.021 N m, or torque_dead_zone (supported). "
+            "Held-out NRMSE falls from 6.52e+03 to 65 %; the noise floor is 1 %. The residuals are "
+            "not noise: largest from 2 to 9 Hz at hub_angle (run low), 50 % of its signal.");
+  const Table table = evidence_table(made);
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(std::get<std::string>(table.rows[0][1]), "supported");
 }
 
 TEST(VerdictText, TellsTheNumericalErrorFromNoise) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flexarm::diagnose {
+
+/// How well the data show an effect: definition_of().
+enum class Grade { candidate, supported, established };
+inline constexpr std::array kGrades = {Grade::established, Grade::supported, Grade::candidate};
+
+/// "candidate", "supported", "established".
+std::string_view to_string(Grade grade);
+/// The definition, which the documents repeat word for word.
+std::string_view definition_of(Grade grade);
+
+/// The parameters of an effect by one run alone, the other effects held: in the parameters' units.
+struct RunEstimate {
+  std::size_t run = 0;  ///< index of Experiment::runs
+  std::vector<double> values;
+  std::vector<double> std_errors;
+};
+
+/// What the data say for one effect of a set: each figure is a loss by leaving it out, the others
+/// refitted to the estimation runs.
+struct EffectEvidence {
+  double score = 0.0;                     ///< of the search (ranked_fit.hpp)
+  double estimation = 0.0;                ///< of -2 ln L on the estimation runs
+  std::optional<double> held_out = {};    ///< the same on the validation runs, if there are any
+  double error_without = 0.0;             ///< NRMSE of the validation runs, else of all runs
+  double error_increase = 0.0;            ///< of that NRMSE
+  double error_increase_std_error = 0.0;  ///< over kErrorBlocks blocks of each channel
+  std::vector<RunEstimate> runs = {};     ///< that tell its parameters
+  double agreement = 1.0;  ///< p-value of the estimates of the runs, if one value holds in all
+};
+
+/// A loss of -2 ln L that is beyond doubt: odds of e^5 = 150 to 1.
+inline constexpr double kBeyondDoubt = 10.0;
+/// Estimates of runs that agree by chance in fewer cases than this do not agree.
+inline constexpr double kLeastAgreement = 0.01;
+inline constexpr int kErrorBlocks = 10;
+
+/// Returns the grade of an effect. `has_rival`: an effect of another family does about as well in
+/// its place. `leaves_noise`: the residuals of the whole set are noise.
+Grade grade_of(const EffectEvidence& evidence, bool has_rival, bool leaves_noise);
+
+}  // namespace flexarm::diagnose

@@ -1,0 +1,174 @@
+#include "diagnose/ranked/evidence_of_fit.hpp"
+
+#include "diagnose/parallel.hpp"
+
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace flexarm::diagnose {
+
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Returns the mean squares over each of kErrorBlocks blocks of a channel of residuals, relative to
+/// the signal: their mean is the square of the channel's NRMSE.
+ArrayXd block_squares(const Problem& problem, const ObservedChannel& channel,
+                      const VectorXd& residuals) {
+  const Observations& observations = problem.observations();
+  const VectorXd errors = to_errors(observations, residuals).segment(channel.first, channel.count);
+  const double error = relative_error(observations, problem.experiment(), channel, residuals);
+  const Index blocks = std::min<Index>(kErrorBlocks, channel.count);
+  ArrayXd squares(blocks);
+  for (Index b = 0; b < blocks; ++b) {
+    const Index first = b * channel.count / blocks;
+    const Index count = (b + 1) * channel.count / blocks - first;
+    squares(b) = errors.segment(first, count).squaredNorm() / static_cast<double>(count);
+  }
+  const double mean = squares.mean();
+  return mean > 0.0 ? ArrayXd(squares * (error * error / mean)) : squares;
+}
+
+/// Sets the NRMSE of these runs and its increase in `evidence`, from the residuals without the
+/// effect and with it. The standard error is that of the mean difference of the squares over the
+/// blocks of each channel.
+void set_errors(const Problem& problem, const std::vector<bool>& runs,
+                const std::optional<VectorXd>& without, const std::optional<VectorXd>& with,
+                EffectEvidence& evidence) {
+  if (!with) return;
+  evidence.error_without = std::numeric_limits<double>::infinity();
+  evidence.error_increase = evidence.error_without;
+  if (!without) return;
+  double error = 0.0;
+  double increase = 0.0;
+  double variance = 0.0;
+  double channels = 0.0;
+  for (const ObservedChannel& channel : problem.observations().channels) {
+    if (!runs[channel.run]) continue;
+    const ArrayXd more = block_squares(problem, channel, *without);
+    const ArrayXd less = block_squares(problem, channel, *with);
+    const ArrayXd differences = more - less;
+    const double sum = std::sqrt(more.mean()) + std::sqrt(less.mean());
+    if (!(sum > 0.0)) continue;
+    const auto n = static_cast<double>(differences.size());
+    error += std::sqrt(more.mean());
+    increase += differences.mean() / sum;
+    variance += (differences - differences.mean()).square().sum() /
+                (n * std::max(1.0, n - 1.0) * sum * sum);
+    channels += 1.0;
+  }
+  if (channels == 0.0) return;
+  evidence.error_without = error / channels;
+  evidence.error_increase = increase / channels;
+  evidence.error_increase_std_error = std::sqrt(variance) / channels;
+}
+
+/// The estimates of one effect by each run alone.
+class RunEstimates {
+ public:
+  RunEstimates(const Likelihood& all_runs, const RankedFit& fit)
+      : all_runs_(all_runs), fit_(fit), weights_(all_runs.weights(fit.lines)) {}
+
+  /// Sets the runs of `evidence`, and their agreement, for the effect at `index`.
+  void set(std::size_t index, EffectEvidence& evidence) const {
+    const Candidate& set = fit_.candidate;
+    const auto& parameters = set.effects[index].parameters;
+    const auto first = static_cast<Index>(set.nuisances.size() + set.values_before(index));
+    const Index count = std::ssize(parameters);
+    const VectorXd here = set.coordinates().segment(first, count);
+    MatrixXd information = MatrixXd::Zero(count, count);
+    VectorXd weighted_steps = VectorXd::Zero(count);
+    double squares = 0.0;
+    int runs = 0;
+    for (std::size_t r = 0; r < all_runs_.runs().size(); ++r) {
+      const auto [of_run, gradient] = normal_equations(r, first, count);
+      const Eigen::LLT<MatrixXd> solver(of_run);
+      if (solver.info() != Eigen::Success) continue;
+      const VectorXd step = -solver.solve(gradient);
+      const VectorXd variances = solver.solve(MatrixXd::Identity(count, count)).diagonal();
+      if (!(variances.maxCoeff() < kPlaceDeviation * kPlaceDeviation)) continue;
+      ++runs;
+      information += of_run;
+      weighted_steps += of_run * step;
+      squares += step.dot(of_run * step);
+      RunEstimate estimate{.run = r, .values = {}, .std_errors = {}};
+      for (Index i = 0; i < count; ++i) {
+        const auto& parameter = parameters[static_cast<std::size_t>(i)];
+        const double deviation = std::sqrt(variances(i));
+        const double place = here(i) + step(i);
+        estimate.values.push_back(parameter.value(place));
+        estimate.std_errors.push_back(0.5 * std::abs(parameter.value(place + deviation) -
+                                                     parameter.value(place - deviation)));
+      }
+      evidence.runs.push_back(std::move(estimate));
+    }
+    if (runs < 2) return;
+    const VectorXd mean = information.ldlt().solve(weighted_steps);
+    const double apart = std::max(0.0, squares - mean.dot(information * mean));
+    const auto freedom = static_cast<double>(count * (runs - 1));
+    evidence.agreement =
+        boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), apart));
+  }
+
+ private:
+  /// Returns J^T W J and J^T W y of these columns over the lines of one run.
+  std::pair<MatrixXd, VectorXd> normal_equations(std::size_t run, Index first, Index count) const {
+    MatrixXd normal = MatrixXd::Zero(count, count);
+    VectorXd gradient = VectorXd::Zero(count);
+    for (const ObservedChannel& channel : all_runs_.problem().observations().channels) {
+      if (channel.run != run) continue;
+      const auto columns = fit_.jacobian.block(channel.first, first, channel.count, count);
+      const auto weights = weights_.segment(channel.first, channel.count);
+      const MatrixXd weighted = weights.asDiagonal() * columns;
+      normal.noalias() += weighted.transpose() * columns;
+      gradient.noalias() += weighted.transpose() * fit_.lines.segment(channel.first, channel.count);
+    }
+    return {normal, gradient};
+  }
+
+  const Likelihood& all_runs_;
+  const RankedFit& fit_;
+  VectorXd weights_;
+};
+
+}  // namespace
+
+std::vector<EffectEvidence> evidence_for_each(const Likelihood& estimation, const RankedFit& chosen,
+                                  const std::vector<RankedFit>& without, const ReportedWork& work) {
+  const Problem& problem = estimation.problem();
+  const Likelihood held_out(problem, problem.validation_runs());
+  const auto held_out_cost = [&](const Candidate& candidate) {
+    const auto lines = held_out.lines_of(candidate);
+    return lines ? held_out.cost(*lines) : std::numeric_limits<double>::infinity();
+  };
+  const Likelihood all_runs(problem, std::vector<bool>(estimation.runs().size(), true));
+  const RankedFit in_all_runs =
+      ranked_fit(all_runs, chosen.candidate, work, {.most_steps = 0, .takes_secants = false});
+  const RunEstimates estimates(all_runs, in_all_runs);
+  const bool has_held_out = problem.has_validation_runs();
+  const double cost = has_held_out ? held_out_cost(chosen.candidate) : 0.0;
+  const std::vector<bool>& judged = problem.judged_runs();
+  const auto with = problem.residuals(chosen.candidate, judged);
+  std::vector<EffectEvidence> made(without.size());
+  in_parallel(made.size(), [&](std::size_t i) {
+    work.go_on();
+    EffectEvidence& evidence = made[i];
+    evidence.score = without[i].score - chosen.score;
+    evidence.estimation = without[i].cost - chosen.cost;
+    if (has_held_out) evidence.held_out = held_out_cost(without[i].candidate) - cost;
+    set_errors(problem, judged, problem.residuals(without[i].candidate, judged), with, evidence);
+    if (in_all_runs.is_possible()) estimates.set(i, evidence);
+  });
+  return made;
+}
+
+}  // namespace flexarm::diagnose

@@ -143,7 +143,8 @@ class RunEstimates {
 }  // namespace
 
 std::vector<EffectEvidence> evidence_for_each(const Likelihood& estimation, const RankedFit& chosen,
-                                  const std::vector<RankedFit>& without, const ReportedWork& work) {
+                                              const std::vector<RankedFit>& without,
+                                              const ReportedWork& work) {
   const Problem& problem = estimation.problem();
   const Likelihood held_out(problem, problem.validation_runs());
   const auto held_out_cost = [&](const Candidate& candidate) {

@@ -15,6 +15,7 @@ namespace flexarm::diagnose {
 /// chi-squared test over the runs that determine the places of the parameters to less than
 /// kPlaceDeviation.
 std::vector<EffectEvidence> evidence_for_each(const Likelihood& estimation, const RankedFit& chosen,
-                                  const std::vector<RankedFit>& without, const ReportedWork& work);
+                                              const std::vector<RankedFit>& without,
+                                              const ReportedWork& work);
 
 }  // namespace flexarm::diagnose

@@ -29,6 +29,9 @@ constexpr RankedFitOptions kLook = {.most_steps = 10, .tolerance = 0.5, .takes_s
 /// them first, and where no predicted move lowers the score.
 enum class Looks { predicted, broad };
 
+/// Rivals of each effect of the final set that are fitted.
+constexpr std::size_t kRivalsOfOne = 2;
+
 /// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
 enum class Climb { to_noise, to_the_end };
 
@@ -75,29 +78,27 @@ class Rung {
     beam.front() = fitted(beam.front().candidate);
   }
 
-  /// Adds fits of the swaps of the best set that are predicted to do nearly as well to the beam,
-  /// the best of each family in the place of each effect.
-  void add_rivals(std::vector<RankedFit>& beam) {
-    const RankedFit best = beam.front();
-    if (!best.is_possible()) return;
-    std::vector<Move> near = moves_from(best);
-    std::set<std::pair<std::size_t, effects::Family>> met;
-    std::erase_if(near, [&](const Move& one) {
-      return !one.dropped || one.added == nullptr || one.score > best.score + options_.near ||
-             !met.emplace(*one.dropped, one.added->entry->family).second;
+  /// Returns the best set, fitted to these data, and fits of its most likely swaps: for each effect
+  /// the kRivalsOfOne that are predicted to be best, of one family one, whatever is predicted. Near
+  /// noise a prediction, which is linear, is too high by much.
+  std::vector<RankedFit> rivals(const Candidate& best) {
+    std::vector<RankedFit> made = {fitted(best)};
+    if (!made.front().is_possible()) return {};
+    std::vector<Move> swaps = moves_from(made.front());
+    std::map<std::size_t, std::set<effects::Family>> met;
+    std::erase_if(swaps, [&](const Move& one) {
+      if (!one.dropped || one.added == nullptr) return true;
+      auto& families = met[*one.dropped];
+      return families.size() == kRivalsOfOne || !families.insert(one.added->entry->family).second;
     });
-    std::vector<RankedFit> rivals(near.size());
-    in_parallel(near.size(), [&](std::size_t i) {
-      rivals[i] = ranked_fit(likelihood_, near[i].of(best.candidate), work_, kLook, &best);
+    made.resize(1 + swaps.size());
+    in_parallel(swaps.size(), [&](std::size_t i) {
+      made[1 + i] = ranked_fit(likelihood_, swaps[i].of(best), work_, kLook, &made.front());
     });
-    std::erase_if(rivals, [&](const RankedFit& one) {
+    std::erase_if(made, [&](const RankedFit& one) {
       return !one.is_possible() || !can_be_timed(one.candidate);
     });
-    std::ranges::move(rivals, std::back_inserter(beam));
-    keep_best(beam, beam.size());
-    if (beam.front().candidate.labels() != best.candidate.labels()) {
-      beam.front() = fitted(beam.front().candidate);
-    }
+    return made;
   }
 
   /// Returns the `most` effects whose moves of this set are predicted to be best, and those of the
@@ -202,6 +203,33 @@ std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
   return hypotheses;
 }
 
+/// Returns a part of a problem: so many samples of each run, and a few modes.
+Problem part_of(const Problem& problem, std::size_t samples, const RankedOptions& options) {
+  const int modes = std::min(options.coarse_modes, problem.predictor().flexible_modes());
+  return {std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
+          {.flexible_modes = modes}};
+}
+
+/// Adds the rivals of the best set (Rung::rivals) that do nearly as well on a part of the data to
+/// the beam, fitted to all data.
+void add_rivals(const Likelihood& likelihood, const Likelihood& part,
+                const std::vector<Hypothesis>& hypotheses, const RankedOptions& options,
+                const ReportedWork& work, std::vector<RankedFit>& beam) {
+  std::vector<RankedFit> rivals =
+      Rung(part, hypotheses, options, work, Climb::to_the_end).rivals(beam.front().candidate);
+  if (rivals.empty()) return;
+  const double most = rivals.front().score + options.near;
+  rivals.erase(rivals.begin());
+  std::erase_if(rivals, [&](const RankedFit& one) { return one.score > most; });
+  std::vector<RankedFit> fits(rivals.size());
+  in_parallel(fits.size(), [&](std::size_t i) {
+    fits[i] = ranked_fit(likelihood, rivals[i].candidate, work, kLook);
+  });
+  std::ranges::move(fits, std::back_inserter(beam));
+  std::ranges::stable_sort(beam, {}, &RankedFit::score);
+  beam.front() = ranked_fit(likelihood, beam.front().candidate, work);
+}
+
 /// Returns the number of samples of the longest `time` run for estimation; 0 without any.
 std::size_t longest_run(const Experiment& experiment) {
   std::size_t longest = 0;
@@ -245,7 +273,6 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
     const bool is_broad = !is_noise && !has_climbed;
     rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
     has_climbed = has_climbed || !is_noise;
-    if (end == Climb::to_the_end) rung.add_rivals(beam);
     if (!has_climbed || end == Climb::to_the_end) return;
     most /= options.halving;
     searched = rung.shortlist(beam.front(), most);
@@ -256,15 +283,22 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
-      const int modes = std::min(options.coarse_modes, problem.predictor().flexible_modes());
-      const Problem part(std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
-                         {.flexible_modes = modes});
+      const Problem part = part_of(problem, samples, options);
       const Likelihood of_part(part, part.estimation_runs());
       climb(of_part, width, Climb::to_noise);
       width = has_climbed ? 1 : width;
     }
     work.tell("effects on all data", 0.5);
     climb(likelihood, width, Climb::to_the_end);
+    if (beam.front().candidate.effects.empty()) return {std::move(beam)};
+    work.tell("rivals of the effects that were found", 0.8);
+    if (options.rungs[1] < longest) {
+      const Problem part = part_of(problem, options.rungs[1], options);
+      add_rivals(likelihood, Likelihood(part, part.estimation_runs()), hypotheses, options, work,
+                 beam);
+    } else {
+      add_rivals(likelihood, likelihood, hypotheses, options, work, beam);
+    }
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;

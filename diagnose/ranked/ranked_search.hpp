@@ -17,7 +17,7 @@ struct RankedOptions {
   /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
   /// known better.
   double least_time = 0.1;
-  /// A swap that is predicted to raise the score by less than this is fitted, as a rival.
+  /// A rival whose score on a part of the data is higher by less than this is fitted to all data.
   double near = 10.0;
   /// Flexible modes on the rungs below all data <= this.
   int coarse_modes = 6;

@@ -104,15 +104,6 @@ TEST_F(RankedTest, ABandCountsByItsSampleSizeFarFromNoiseAndByItsLinesNearIt) {
               Likelihood::kSampleSize, 0.1 * Likelihood::kSampleSize);
 }
 
-TEST_F(RankedTest, NoiseIsLeftByTheHiddenEffectsAlone) {
-  const auto is_noise = [&](const Candidate& start) {
-    return likelihood_.is_noise(ranked_fit(likelihood_, start, work_).lines);
-  };
-  EXPECT_TRUE(is_noise(friction(kCoulomb_N_m).with(hypothesis("payload_mass"), {kMass_kg})));
-  EXPECT_FALSE(is_noise(friction(kCoulomb_N_m)));
-  EXPECT_FALSE(is_noise(problem_.as_filed()));
-}
-
 TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
   const RankedFit fit = ranked_fit(likelihood_, friction(0.3 * kCoulomb_N_m), work_);
   ASSERT_TRUE(fit.is_possible());
@@ -172,6 +163,22 @@ TEST_F(RankedTest, FindsBothEffectsAndNoOther) {
     const double hidden = is_mass ? kMass_kg : kCoulomb_N_m;
     EXPECT_NEAR(best.values_of(i).front() / hidden, 1.0, 0.05) << best.effects[i].effect;
   }
+}
+
+TEST(LikelihoodTest, NoiseIsLeftByTheHiddenEffectAlone) {
+  // Long enough for the noise floor of the acceleration to be known to a tenth.
+  const Experiment experiment = simulated_experiment(
+      {effects::named("coulomb_friction", {{"torque", kCoulomb_N_m}})}, {.duration_s = 4.0});
+  const Problem problem(experiment);
+  const Likelihood likelihood(problem, problem.estimation_runs());
+  const Hypothesis friction = named(experiment, {"coulomb_friction"}).front();
+  const auto is_noise = [&](double torque_N_m) {
+    return likelihood.is_noise(
+        likelihood.lines_of(problem.as_filed().with(friction, {torque_N_m})).value());
+  };
+  EXPECT_TRUE(is_noise(kCoulomb_N_m));
+  EXPECT_FALSE(is_noise(0.9 * kCoulomb_N_m));
+  EXPECT_FALSE(is_noise(0.0));
 }
 
 TEST_F(RankedTest, EvidenceIsWhatIsLostWithoutAnEffect) {

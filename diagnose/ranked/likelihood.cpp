@@ -132,7 +132,7 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {
-      bands_.push_back({channel.first, channel.count, 0.0});
+      bands_.push_back({channel.first, channel.count, 0.0, true});
       continue;
     }
     const Index samples = transformed(channel);
@@ -180,14 +180,17 @@ double Likelihood::Band::sample_size() const {
 }
 
 double Likelihood::Band::cost(double sum) const {
-  const double excess = sum - static_cast<double>(count);
-  const double scale = sample_size() + added;
-  return sample_size() * (excess <= 0.0 ? excess / scale : std::log1p(excess / scale));
+  const double m = sample_size();
+  const auto n = static_cast<double>(count);
+  if (!is_stated) return m * std::log((added + sum) / n);
+  return sum <= n ? sum : n + m * std::log1p((sum - n) / m);
 }
 
 double Likelihood::Band::slope(double sum) const {
-  const double excess = sum - static_cast<double>(count);
-  return sample_size() / (sample_size() + added + std::max(excess, 0.0));
+  const double m = sample_size();
+  const auto n = static_cast<double>(count);
+  if (!is_stated) return m / (added + sum);
+  return sum <= n ? 1.0 : m / (m + sum - n);
 }
 
 double Likelihood::cost_of_squares(const VectorXd& squares) const {

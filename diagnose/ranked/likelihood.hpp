@@ -9,27 +9,30 @@
 
 namespace flexarm::diagnose {
 
-/// The predictive likelihood of an experiment's runs. A channel's residuals, in standard deviations
-/// of its noise, are that noise and the error of the model, whose size is estimated from the
-/// residuals themselves.
+/// The predictive likelihood of an experiment's runs, with a noise level and colour of each channel
+/// that are estimated from the residuals themselves.
 ///
 /// The residuals of a channel of a `time` run are transformed to lines by the orthonormal DCT-II,
 /// which a slow change across the record does not spread over all lines as a Fourier transform
 /// does; the last few samples are left out where their number has large prime factors. The lines
-/// fall into octaves of frequency. A channel of responses or of a modal table is one band. What a
-/// model gets wrong is a smooth function of frequency times the signal, so that it has few degrees
-/// of freedom in a band, m = min(n, kSampleSize), however many lines n the band has: these have the
-/// variance of the model's error, the others that of noise. With S the sum of squares of the lines
-/// and E = S - n what is beyond noise,
+/// fall into octaves of frequency; within an octave the noise is white. With S_b the sum of squares
+/// of the n_b lines of a band
 ///
-///     -2 ln L = m E/(m + a)                E <= 0
-///               m ln(1 + E/(m + a))        E >  0
+///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b),    m_b = min(n_b, kSampleSize)
 ///
-/// up to a constant. Where noise is left this is chi-squared; far from noise it counts by what
-/// ratio a model lowers the squares of m lines. a are the squares of what the simulation itself
-/// errs by: its truncation, which is the change that further modes make of the arm as filed, and
-/// kDiscrepancy of the signal in that band; 0 of responses and modal tables. Nuisances add their
-/// squares.
+/// up to a constant. a_b are the squares of what the simulation itself errs by: its truncation,
+/// which is the change that further modes make of the arm as filed, and kDiscrepancy of the signal
+/// in that band. m_b is the effective sample size of a band: what a model gets wrong is a smooth
+/// function of frequency times the signal, so that its lines are no more independent of each other
+/// the more of them a record has.
+///
+/// Lines of responses and entries of modal tables have stated deviations. A channel of them is one
+/// band: noise, and an error of the model that has m degrees of freedom,
+///
+///     -2 ln L = S                            S <= n
+///               n + m ln(1 + (S - n)/m)      S >  n
+///
+/// Nuisances add their squares.
 class Likelihood {
  public:
   /// The part of a signal, as an amplitude, below which no model is asked to follow it.
@@ -64,7 +67,8 @@ class Likelihood {
   struct Band {
     Eigen::Index first = 0;
     Eigen::Index count = 0;
-    double added = 0.0;  ///< a
+    double added = 0.0;      ///< a_b
+    bool is_stated = false;  ///< its deviations are
 
     double sample_size() const;
     double cost(double sum) const;

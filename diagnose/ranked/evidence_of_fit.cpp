@@ -1,9 +1,9 @@
 #include "diagnose/ranked/evidence_of_fit.hpp"
 
 #include "diagnose/parallel.hpp"
+#include "measured/spectra/tail_probability.hpp"
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -115,8 +115,7 @@ class RunEstimates {
     const VectorXd mean = information.ldlt().solve(weighted_steps);
     const double apart = std::max(0.0, squares - mean.dot(information * mean));
     const auto freedom = static_cast<double>(count * (runs - 1));
-    evidence.agreement =
-        boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), apart));
+    evidence.agreement = measured::chi_squared_tail(apart, freedom);
   }
 
  private:

@@ -78,25 +78,26 @@ class Rung {
     beam.front() = fitted(beam.front().candidate);
   }
 
-  /// Returns the best set, fitted to these data, and fits of its most likely swaps: for each effect
-  /// the kRivalsOfOne that are predicted to be best, of one family one, whatever is predicted. Near
-  /// noise a prediction, which is linear, is too high by much.
-  std::vector<RankedFit> rivals(const Candidate& best) {
-    std::vector<RankedFit> made = {fitted(best)};
-    if (!made.front().is_possible()) return {};
-    std::vector<Move> swaps = moves_from(made.front());
+  /// Returns fits of the most likely swaps of a set whose score is `near` that of the set on these
+  /// data, or lower. For each effect the kRivalsOfOne that are predicted to be best are tried, of
+  /// one family one, whatever is predicted: near noise the prediction, which is linear, is too high
+  /// by much.
+  std::vector<RankedFit> rivals(const Candidate& set) {
+    const RankedFit base = fitted(set);
+    if (!base.is_possible()) return {};
+    std::vector<Move> swaps = moves_from(base);
     std::map<std::size_t, std::set<effects::Family>> met;
     std::erase_if(swaps, [&](const Move& one) {
       if (!one.dropped || one.added == nullptr) return true;
       auto& families = met[*one.dropped];
       return families.size() == kRivalsOfOne || !families.insert(one.added->entry->family).second;
     });
-    made.resize(1 + swaps.size());
+    std::vector<RankedFit> made(swaps.size());
     in_parallel(swaps.size(), [&](std::size_t i) {
-      made[1 + i] = ranked_fit(likelihood_, swaps[i].of(best), work_, kLook, &made.front());
+      made[i] = ranked_fit(likelihood_, swaps[i].of(base.candidate), work_, kLook, &base);
     });
     std::erase_if(made, [&](const RankedFit& one) {
-      return !one.is_possible() || !can_be_timed(one.candidate);
+      return one.score > base.score + options_.near || !can_be_timed(one.candidate);
     });
     return made;
   }
@@ -215,16 +216,13 @@ Problem part_of(const Problem& problem, std::size_t samples, const RankedOptions
 void add_rivals(const Likelihood& likelihood, const Likelihood& part,
                 const std::vector<Hypothesis>& hypotheses, const RankedOptions& options,
                 const ReportedWork& work, std::vector<RankedFit>& beam) {
-  std::vector<RankedFit> rivals =
+  const std::vector<RankedFit> rivals =
       Rung(part, hypotheses, options, work, Climb::to_the_end).rivals(beam.front().candidate);
-  if (rivals.empty()) return;
-  const double most = rivals.front().score + options.near;
-  rivals.erase(rivals.begin());
-  std::erase_if(rivals, [&](const RankedFit& one) { return one.score > most; });
   std::vector<RankedFit> fits(rivals.size());
   in_parallel(fits.size(), [&](std::size_t i) {
     fits[i] = ranked_fit(likelihood, rivals[i].candidate, work, kLook);
   });
+  std::erase_if(fits, [](const RankedFit& one) { return !one.is_possible(); });
   std::ranges::move(fits, std::back_inserter(beam));
   std::ranges::stable_sort(beam, {}, &RankedFit::score);
   beam.front() = ranked_fit(likelihood, beam.front().candidate, work);

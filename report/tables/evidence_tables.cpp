@@ -49,8 +49,8 @@ std::string error_text(const diagnose::Diagnosis& diagnosis) {
                      100.0 * gain.after, 100.0 * gain.noise_floor);
 }
 
-/// Where the largest error beyond noise is: "The residuals are not noise: largest from 2 to 9 Hz at
-/// hub_angle (run low)".
+/// Returns where the largest excess residual is: "The residuals are not noise: largest from 2 to 9
+/// Hz at hub_angle (run low)".
 std::string left_text(const diagnose::Diagnosis& diagnosis) {
   const auto& bands = diagnosis.symptoms.bands;
   const auto beyond = [](const diagnose::BandError& band) {
@@ -92,8 +92,8 @@ Table evidence_table(const diagnose::Diagnosis& diagnosis) {
   Table table{"Evidence: what is lost without each effect",
               {{.name = "effect"},
                {.name = "grade"},
-               {.name = "-2 ln L, fitted", .significant_digits = 3},
-               {.name = "-2 ln L, held out", .significant_digits = 3},
+               {.name = "-2 ln L, estimation", .significant_digits = 3},
+               {.name = "-2 ln L, validation", .significant_digits = 3},
                {.name = is_held_out ? "held-out NRMSE without it" : "NRMSE without it",
                 .unit = "%",
                 .significant_digits = 3},

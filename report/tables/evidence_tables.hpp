@@ -12,7 +12,7 @@ bool has_grades(const diagnose::Diagnosis& diagnosis);
 
 /// Returns the verdict of a diagnosis with grades in two or three sentences: the causes with values
 /// and grades, the NRMSE of the validation runs (of the estimation runs without any) before and
-/// after, and where the largest part of what is left is.
+/// after, and where the largest excess residual is.
 std::string graded_verdict_text(const diagnose::Diagnosis& diagnosis);
 
 /// Returns what is lost without each cause, and how its estimates agree between runs: a row a

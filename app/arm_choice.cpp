@@ -8,6 +8,7 @@
 #include "arm/linear_arm.hpp"
 #include "arm/plausibility.hpp"
 #include "arm/rigid_hub.hpp"
+#include "arm/unit_suffix.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/files/usable_arm.hpp"
 #include "response/arm_parts.hpp"
@@ -29,7 +30,7 @@ std::string describe_effect(const std::string& name, const arm::Effect& effect) 
   for (const auto& parameter : effect.definition->parameters) {
     const auto value = effect.parameters.find(parameter.name);
     if (value == effect.parameters.end()) continue;
-    const std::string unit = parameter.unit == "1" ? "" : " " + parameter.unit;
+    const std::string unit = arm::unit_suffix(parameter.unit);
     parts.push_back(fmt::format("{} {:g}{}", parameter.name, value->second, unit));
   }
   if (!effect.sensor.empty()) parts.push_back(effect.sensor);

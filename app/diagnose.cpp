@@ -148,7 +148,7 @@ std::string evidence_text(const diagnose::Diagnosis& diagnosis) {
 std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
   std::string text = verdict_paragraph(diagnosis) + "\n" + restrictions_text(diagnosis);
   text += screen_table(report::cause_table(diagnosis), 2);
-  if (report::has_grades(diagnosis)) text += screen_table(report::evidence_table(diagnosis));
+  text += screen_table(report::evidence_table(diagnosis));
   text += screen_table(report::gain_table(diagnosis));
   if (verbose) text += evidence_text(diagnosis);
   const std::string predictor = report::predictor_text(diagnosis);

@@ -1,6 +1,7 @@
 #include "diagnose/cause.hpp"
 
 #include "arm/arm_keys.hpp"
+#include "arm/effect_label.hpp"
 #include "arm/uncertainties.hpp"
 #include "diagnose/search/rivals.hpp"
 
@@ -103,6 +104,10 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
 }
 
 }  // namespace
+
+std::string Cause::label() const {
+  return arm::effect_label(effect, sensor);
+}
 
 bool RefittedNumber::has_moved() const {
   return std::abs(value - file_value) > kMoved * std_error;

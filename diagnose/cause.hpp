@@ -40,16 +40,19 @@ struct Cause {
   double confidence = 0.0;
   /// The same of this effect or one of `confusable_with` in its place.
   double class_confidence = 0.0;
-  /// By the ranked search.
-  Grade grade = Grade::candidate;
-  std::string family;  ///< in words
+  std::string family;  ///< of effects, in words
+  /// The evidence and its grade; none by the staged search.
   std::optional<EffectEvidence> figures = {};
+  Grade grade = Grade::candidate;
   double share = 0.0;  ///< explained of the excess residual without it, the others refitted
   /// Effects that these data do not distinguish from it: other names of the same model, and rivals
   /// (rivals.hpp).
   std::vector<std::string> confusable_with;
   std::vector<std::string> evidence;  ///< sentences
   std::string refuted_by;
+
+  /// Returns the effect as texts name it (arm::effect_label).
+  std::string label() const;
 };
 
 /// The chosen effects in order of what each explains. `errors` are `standard_errors` of the choice.

@@ -14,19 +14,6 @@ std::string_view to_string(Grade grade) {
   return "";
 }
 
-std::string_view definition_of(Grade grade) {
-  switch (grade) {
-    case Grade::candidate:
-      return "In the set of effects with the lowest score, and no more.";
-    case Grade::supported:
-      return "Without it the validation runs are predicted worse beyond doubt.";
-    case Grade::established:
-      return "Supported; its estimates agree between runs; no effect of another family does about "
-             "as well in its place; and the residuals are noise.";
-  }
-  return "";
-}
-
 Grade grade_of(const EffectEvidence& evidence, bool has_rival, bool leaves_noise) {
   const bool is_supported = evidence.held_out && *evidence.held_out >= kBeyondDoubt &&
                             evidence.error_increase > 2.0 * evidence.error_increase_std_error;

@@ -1,22 +1,17 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace flexarm::diagnose {
 
-/// How well the data show an effect: definition_of().
+/// How well the data show an effect (grade_of, docs/ranked-search.md).
 enum class Grade { candidate, supported, established };
-inline constexpr std::array kGrades = {Grade::established, Grade::supported, Grade::candidate};
 
-/// "candidate", "supported", "established".
+/// Returns "candidate", "supported", "established".
 std::string_view to_string(Grade grade);
-/// The definition, which the documents repeat word for word.
-std::string_view definition_of(Grade grade);
 
 /// The parameters of an effect by one run alone, the other effects held: in the parameters' units.
 struct RunEstimate {
@@ -25,8 +20,8 @@ struct RunEstimate {
   std::vector<double> std_errors;
 };
 
-/// What the data say for one effect of a set: each figure is a loss by leaving it out, the others
-/// refitted to the estimation runs.
+/// The losses by leaving an effect out of a set, the others refitted to the estimation runs, and
+/// its estimates in each run.
 struct EffectEvidence {
   double score = 0.0;                     ///< of the search (ranked_fit.hpp)
   double estimation = 0.0;                ///< of -2 ln L on the estimation runs
@@ -44,8 +39,10 @@ inline constexpr double kBeyondDoubt = 10.0;
 inline constexpr double kLeastAgreement = 0.01;
 inline constexpr int kErrorBlocks = 10;
 
-/// Returns the grade of an effect. `has_rival`: an effect of another family does about as well in
-/// its place. `leaves_noise`: the residuals of the whole set are noise.
+/// Returns the grade of an effect: `supported` where the validation runs are predicted worse
+/// without it beyond doubt, `established` where besides its estimates agree between runs, no effect
+/// of another family does about as well in its place (`has_rival`), and the residuals of the whole
+/// set are noise (`leaves_noise`).
 Grade grade_of(const EffectEvidence& evidence, bool has_rival, bool leaves_noise);
 
 }  // namespace flexarm::diagnose

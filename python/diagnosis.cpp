@@ -1,6 +1,7 @@
 #include "diagnose/diagnosis.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/unit_suffix.hpp"
 #include "diagnose/diagnosis_request.hpp"
 #include "python/archive.hpp"
 #include "python/argument_names.hpp"
@@ -93,7 +94,7 @@ std::map<std::string, std::string> figures_of(const Diagnosed& self) {
 }
 
 std::string number_with_error(const ParameterEstimate& estimate) {
-  const std::string unit = estimate.unit == "1" ? "" : " " + estimate.unit;
+  const std::string unit = arm::unit_suffix(estimate.unit);
   return fmt::format("{} {:.4g} +- {:.2g}{}", estimate.name, estimate.value, estimate.std_error,
                      unit);
 }
@@ -101,9 +102,8 @@ std::string number_with_error(const ParameterEstimate& estimate) {
 std::string cause_text(const Cause& cause) {
   Texts numbers;
   for (const auto& parameter : cause.parameters) numbers.push_back(number_with_error(parameter));
-  return fmt::format("<flexarm.Cause {}{}: {}, probability {:.2g}>", cause.effect,
-                     cause.sensor.empty() ? "" : " on " + cause.sensor, fmt::join(numbers, ", "),
-                     cause.confidence);
+  return fmt::format("<flexarm.Cause {}: {}, probability {:.2g}>", cause.label(),
+                     fmt::join(numbers, ", "), cause.confidence);
 }
 
 void add_estimates(py::module_& module) {

@@ -2,6 +2,7 @@
 
 #include "arm/input_error.hpp"
 #include "arm/linear_arm.hpp"
+#include "arm/unit_suffix.hpp"
 #include "response/settings.hpp"
 
 #include <fmt/format.h>
@@ -112,7 +113,7 @@ std::string SweepTask::describe(std::size_t point) const {
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const SweepParameter& parameter = axes[k].parameter;
     text += fmt::format("{}{} = {:.6g}{}", k > 0 ? ", " : "", parameter.name, value(k, point),
-                        parameter.unit == "1" ? "" : " " + parameter.unit);
+                        arm::unit_suffix(parameter.unit));
   }
   return text;
 }

@@ -20,47 +20,47 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Returns the mean squares over each of kErrorBlocks blocks of a channel of residuals, relative to
-/// the signal: their mean is the square of the channel's NRMSE.
-ArrayXd block_squares(const Problem& problem, const ObservedChannel& channel,
-                      const VectorXd& residuals) {
+/// Returns for each channel of these runs the mean squares of residuals over each of kErrorBlocks
+/// blocks, relative to the signal: their mean is the square of the channel's NRMSE.
+std::vector<ArrayXd> block_squares(const Problem& problem, const std::vector<bool>& runs,
+                                   const VectorXd& residuals) {
   const Observations& observations = problem.observations();
-  const VectorXd errors = to_errors(observations, residuals).segment(channel.first, channel.count);
-  const double error = relative_error(observations, problem.experiment(), channel, residuals);
-  const Index blocks = std::min<Index>(kErrorBlocks, channel.count);
-  ArrayXd squares(blocks);
-  for (Index b = 0; b < blocks; ++b) {
-    const Index first = b * channel.count / blocks;
-    const Index count = (b + 1) * channel.count / blocks - first;
-    squares(b) = errors.segment(first, count).squaredNorm() / static_cast<double>(count);
+  const VectorXd errors = to_errors(observations, residuals);
+  std::vector<ArrayXd> made;
+  for (const ObservedChannel& channel : observations.channels) {
+    if (!runs[channel.run]) continue;
+    const Index blocks = std::min<Index>(kErrorBlocks, channel.count);
+    ArrayXd squares(blocks);
+    for (Index b = 0; b < blocks; ++b) {
+      const Index first = b * channel.count / blocks;
+      const Index count = (b + 1) * channel.count / blocks - first;
+      const auto block = errors.segment(channel.first + first, count);
+      squares(b) = block.squaredNorm() / static_cast<double>(count);
+    }
+    const double error = relative_error(observations, problem.experiment(), channel, residuals);
+    const double mean = squares.mean();
+    if (mean > 0.0) squares *= error * error / mean;
+    made.push_back(std::move(squares));
   }
-  const double mean = squares.mean();
-  return mean > 0.0 ? ArrayXd(squares * (error * error / mean)) : squares;
+  return made;
 }
 
-/// Sets the NRMSE of these runs and its increase in `evidence`, from the residuals without the
-/// effect and with it. The standard error is that of the mean difference of the squares over the
-/// blocks of each channel.
-void set_errors(const Problem& problem, const std::vector<bool>& runs,
-                const std::optional<VectorXd>& without, const std::optional<VectorXd>& with,
+/// Sets the NRMSE and its increase in `evidence`, from the block squares without the effect and
+/// with it. The standard error is that of the mean difference of the squares over the blocks of
+/// each channel.
+void set_errors(const std::vector<ArrayXd>& without, const std::vector<ArrayXd>& with,
                 EffectEvidence& evidence) {
-  if (!with) return;
-  evidence.error_without = std::numeric_limits<double>::infinity();
-  evidence.error_increase = evidence.error_without;
-  if (!without) return;
   double error = 0.0;
   double increase = 0.0;
   double variance = 0.0;
   double channels = 0.0;
-  for (const ObservedChannel& channel : problem.observations().channels) {
-    if (!runs[channel.run]) continue;
-    const ArrayXd more = block_squares(problem, channel, *without);
-    const ArrayXd less = block_squares(problem, channel, *with);
-    const ArrayXd differences = more - less;
-    const double sum = std::sqrt(more.mean()) + std::sqrt(less.mean());
+  for (std::size_t c = 0; c < with.size(); ++c) {
+    const ArrayXd differences = without[c] - with[c];
+    const double more = std::sqrt(without[c].mean());
+    const double sum = more + std::sqrt(with[c].mean());
     if (!(sum > 0.0)) continue;
     const auto n = static_cast<double>(differences.size());
-    error += std::sqrt(more.mean());
+    error += more;
     increase += differences.mean() / sum;
     variance += (differences - differences.mean()).square().sum() /
                 (n * std::max(1.0, n - 1.0) * sum * sum);
@@ -141,32 +141,38 @@ class RunEstimates {
 
 }  // namespace
 
-std::vector<EffectEvidence> evidence_for_each(const Likelihood& estimation, const RankedFit& chosen,
+std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const RankedFit& chosen,
                                               const std::vector<RankedFit>& without,
                                               const ReportedWork& work) {
-  const Problem& problem = estimation.problem();
-  const Likelihood held_out(problem, problem.validation_runs());
-  const auto held_out_cost = [&](const Candidate& candidate) {
-    const auto lines = held_out.lines_of(candidate);
-    return lines ? held_out.cost(*lines) : std::numeric_limits<double>::infinity();
-  };
-  const Likelihood all_runs(problem, std::vector<bool>(estimation.runs().size(), true));
-  const RankedFit in_all_runs =
-      ranked_fit(all_runs, chosen.candidate, work, {.most_steps = 0, .takes_secants = false});
+  const Problem& problem = held_out.problem();
+  const Likelihood all_runs(problem, std::vector<bool>(held_out.runs().size(), true));
+  const RankedFit in_all_runs = ranked_fit(all_runs, chosen.candidate, work, {.most_steps = 0});
+  const auto with = problem.residuals(chosen.candidate, problem.judged_runs());
+  std::vector<EffectEvidence> made;
+  for (const RankedFit& one : without) {
+    made.push_back({.score = one.score - chosen.score, .estimation = one.cost - chosen.cost});
+  }
+  if (!with || !in_all_runs.is_possible()) return made;
   const RunEstimates estimates(all_runs, in_all_runs);
+  const std::vector<ArrayXd> squares = block_squares(problem, problem.judged_runs(), *with);
+  const auto held_out_cost = [&](const VectorXd& residuals) {
+    return held_out.cost(held_out.lines(residuals));
+  };
   const bool has_held_out = problem.has_validation_runs();
-  const double cost = has_held_out ? held_out_cost(chosen.candidate) : 0.0;
-  const std::vector<bool>& judged = problem.judged_runs();
-  const auto with = problem.residuals(chosen.candidate, judged);
-  std::vector<EffectEvidence> made(without.size());
+  const double cost = has_held_out ? held_out_cost(*with) : 0.0;
   in_parallel(made.size(), [&](std::size_t i) {
     work.go_on();
     EffectEvidence& evidence = made[i];
-    evidence.score = without[i].score - chosen.score;
-    evidence.estimation = without[i].cost - chosen.cost;
-    if (has_held_out) evidence.held_out = held_out_cost(without[i].candidate) - cost;
-    set_errors(problem, judged, problem.residuals(without[i].candidate, judged), with, evidence);
-    if (in_all_runs.is_possible()) estimates.set(i, evidence);
+    estimates.set(i, evidence);
+    const auto left = problem.residuals(without[i].candidate, problem.judged_runs());
+    if (left) {
+      if (has_held_out) evidence.held_out = held_out_cost(*left) - cost;
+      set_errors(block_squares(problem, problem.judged_runs(), *left), squares, evidence);
+    } else {
+      evidence.error_without = std::numeric_limits<double>::infinity();
+      evidence.error_increase = evidence.error_without;
+      if (has_held_out) evidence.held_out = evidence.error_without;
+    }
   });
   return made;
 }

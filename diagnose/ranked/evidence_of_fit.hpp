@@ -8,13 +8,14 @@
 namespace flexarm::diagnose {
 
 /// Returns the evidence for each effect of `chosen`, in their order. `without` are the fits of the
-/// set without each, all to the runs of `estimation`. Throws Cancelled where the work is cancelled.
+/// set without each, all to the estimation runs; `held_out` is the likelihood of the validation
+/// runs of their problem. Throws Cancelled where the work is cancelled.
 ///
 /// The estimates of a run are those of one Gauss-Newton step from the values of all runs, by the
 /// lines of that run alone and the weights of the likelihood of all runs; their agreement is a
 /// chi-squared test over the runs that determine the places of the parameters to less than
 /// kPlaceDeviation.
-std::vector<EffectEvidence> evidence_for_each(const Likelihood& estimation, const RankedFit& chosen,
+std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const RankedFit& chosen,
                                               const std::vector<RankedFit>& without,
                                               const ReportedWork& work);
 

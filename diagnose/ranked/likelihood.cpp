@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -173,6 +174,11 @@ std::optional<VectorXd> Likelihood::lines_of(const Candidate& candidate) const {
   const auto residuals = problem_.residuals(candidate, runs_);
   if (!residuals) return std::nullopt;
   return lines(*residuals);
+}
+
+double Likelihood::cost_of(const Candidate& candidate) const {
+  const auto lines = lines_of(candidate);
+  return lines ? cost(*lines) : std::numeric_limits<double>::infinity();
 }
 
 double Likelihood::Band::sample_size() const {

@@ -52,6 +52,8 @@ class Likelihood {
   /// Returns the lines of a candidate's residuals; empty where its arm cannot be computed.
   std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const;
 
+  /// Returns -2 ln L of a candidate; infinite where its arm cannot be computed.
+  double cost_of(const Candidate& candidate) const;
   /// Returns -2 ln L of lines.
   double cost(const Eigen::VectorXd& lines) const { return cost_of_squares(lines.cwiseAbs2()); }
   /// Returns -2 ln L of the squares of lines.

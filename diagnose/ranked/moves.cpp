@@ -140,28 +140,6 @@ class Neighbourhood {
   std::vector<Move> with(const Hypothesis& effect) const {
     const std::vector<Hypothesis>& own = base_.candidate.effects;
     std::vector<Move> made;
-    const auto look_beside = [&](const Ground& ground, const std::vector<std::size_t>& places_in) {
-      for (const auto& samples : groups_of_samples(effect)) {
-        std::vector<std::vector<Move>> moves(places_in.size());
-        for (const StartPlaces& places : samples) {
-          const auto values = effects::values_at(effect.parameters, places);
-          const auto moved = lines_of(ground.set().with(effect, values));
-          if (!moved) continue;
-          const VectorXd change = *moved - ground.lines();
-          for (std::size_t k = 0; k < places_in.size(); ++k) {
-            Move move = ground_of(places_in[k]).adding(effect, places, change);
-            if (move.added == nullptr) continue;
-            if (places_in[k] < own.size()) move.dropped = places_in[k];
-            moves[k].push_back(std::move(move));
-          }
-        }
-        for (auto& of_place : moves) {
-          std::ranges::stable_sort(of_place, {}, &Move::score);
-          of_place.resize(std::min(of_place.size(), effect.parameters.size()));
-          std::ranges::move(of_place, std::back_inserter(made));
-        }
-      }
-    };
     std::vector<std::size_t> additive;
     bool is_new = true;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -169,17 +147,43 @@ class Neighbourhood {
       if (own[i].label() == effect.label()) return {};
       is_new = is_new && own[i].effect != effect.effect;
       if (own[i].entry->family == effect.entry->family) {
-        look_beside(*without_[i], {i});
+        look_beside(*without_[i], effect, {i}, made);
       } else {
         additive.push_back(i);
       }
     }
     additive.push_back(own.size());
-    if (is_new) look_beside(*whole_, additive);
+    if (is_new) look_beside(*whole_, effect, additive, made);
     return made;
   }
 
  private:
+  /// Adds the best moves with this effect to `made`: as many of each group of samples as it has
+  /// parameters, for each of the effects in `dropped`. What it changes is computed beside `ground`.
+  void look_beside(const Ground& ground, const Hypothesis& effect,
+                   const std::vector<std::size_t>& dropped, std::vector<Move>& made) const {
+    for (const auto& samples : groups_of_samples(effect)) {
+      std::vector<std::vector<Move>> moves(dropped.size());
+      for (const StartPlaces& places : samples) {
+        const auto values = effects::values_at(effect.parameters, places);
+        const auto moved = lines_of(ground.set().with(effect, values));
+        if (!moved) continue;
+        const VectorXd change = *moved - ground.lines();
+        for (std::size_t k = 0; k < dropped.size(); ++k) {
+          Move move = ground_of(dropped[k]).adding(effect, places, change);
+          if (move.added == nullptr) continue;
+          if (dropped[k] < without_.size()) move.dropped = dropped[k];
+          moves[k].push_back(std::move(move));
+        }
+      }
+      for (auto& of_one : moves) {
+        std::ranges::stable_sort(of_one, {}, &Move::score);
+        of_one.resize(std::min(of_one.size(), effect.parameters.size()));
+        std::ranges::move(of_one, std::back_inserter(made));
+      }
+    }
+  }
+
   /// Returns the set without the effect at `dropped`; the whole set behind the last one.
   const Ground& ground_of(std::size_t dropped) const {
     return dropped < without_.size() ? *without_[dropped] : *whole_;

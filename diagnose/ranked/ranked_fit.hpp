@@ -32,10 +32,9 @@ double price(const Hypothesis& effect);
 ///
 ///     sum over effects of -2 ln p  +  ln det(I + P J^T W J),
 ///
-/// P the prior variance of
-/// nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the lines: the Laplace
-/// approximation of the evidence. A parameter that the data determine to a thousandth of its range
-/// costs 2 ln(0.3/0.001) = 11.4.
+/// P the prior variance of nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the
+/// lines: the Laplace approximation of the evidence. A parameter that the data determine to a
+/// thousandth of its range costs 2 ln(0.3/0.001) = 11.4.
 double price(const Candidate& candidate, const Eigen::MatrixXd& jacobian,
              const Eigen::VectorXd& weights);
 

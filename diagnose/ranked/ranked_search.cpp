@@ -262,8 +262,7 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
   const auto climb = [&](const Likelihood& part, std::size_t width, Climb end) {
     Rung rung(part, searched, options, work, end);
     rung.fit(beam);
-    const RankedFit& best = beam.front();
-    const bool is_noise = best.is_possible() && part.is_noise(best.lines);
+    const bool is_noise = beam.front().is_possible() && part.is_noise(beam.front().lines);
     if (!is_noise) {
       climb_afresh(part, common, width, end);
       if (!has_climbed) climb_afresh(part, hypotheses, width, end);

@@ -38,8 +38,9 @@ struct RankedSets {
 ///
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
-/// - each rung is climbed from the arm as filed with the `common` effects alone (effects::Likely),
-///   the first one with all effects too; the best of what these and the rung below found goes on;
+/// - a rung on which the beam does not leave noise is climbed from the arm as filed with the
+///   `common` effects alone (effects::Likely), the first such one with all effects too; the best of
+///   what these and the rung below found goes on;
 /// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
 /// - the next rung has a part of the effects, those that do best and those of the families of the
 ///   set.

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,12 +16,6 @@ namespace {
 /// A set whose score is higher by this or more has a probability below 1 %: its parameters are not
 /// reported.
 constexpr double kReported = 9.0;
-
-/// Returns -2 ln L of the validation runs by a candidate; infinite for one that cannot be computed.
-double held_out_cost(const Likelihood& held_out, const Candidate& candidate) {
-  const auto lines = held_out.lines_of(candidate);
-  return lines ? held_out.cost(*lines) : std::numeric_limits<double>::infinity();
-}
 
 /// Returns the fit of `best` without each of its effects.
 std::vector<RankedFit> without_each(const Likelihood& likelihood, const RankedFit& best,
@@ -38,22 +30,19 @@ std::vector<RankedFit> without_each(const Likelihood& likelihood, const RankedFi
 
 /// Drops the effects that validation runs are predicted better without. Returns the fits of the
 /// rest without each of its effects.
-std::vector<RankedFit> drop_by_validation(const Likelihood& likelihood, RankedFit& best,
-                                          const ReportedWork& work) {
-  const Likelihood held_out(likelihood.problem(), likelihood.problem().validation_runs());
-  double cost = held_out_cost(held_out, best.candidate);
+std::vector<RankedFit> drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out,
+                                          RankedFit& best, const ReportedWork& work) {
+  double cost = held_out.cost_of(best.candidate);
   while (true) {
     std::vector<RankedFit> without = without_each(likelihood, best, work);
     if (without.empty() || !likelihood.problem().has_validation_runs()) return without;
     std::vector<double> costs;
-    for (const RankedFit& one : without) {
-      costs.push_back(held_out_cost(held_out, one.candidate));
-    }
+    for (const RankedFit& one : without) costs.push_back(held_out.cost_of(one.candidate));
     const auto least = std::ranges::min_element(costs);
     if (!(*least < cost)) return without;
     best = ranked_fit(likelihood,
                       without[static_cast<std::size_t>(least - costs.begin())].candidate, work);
-    cost = held_out_cost(held_out, best.candidate);
+    cost = held_out.cost_of(best.candidate);
   }
 }
 
@@ -77,8 +66,9 @@ void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, R
   RankedFit& best = sets.best.front();
   std::vector<RankedFit> without;
   try {
-    without = drop_by_validation(likelihood, best, work);
-    made.evidence = evidence_for_each(likelihood, best, without, work);
+    const Likelihood held_out(problem, problem.validation_runs());
+    without = drop_by_validation(likelihood, held_out, best, work);
+    made.evidence = evidence_for_each(held_out, best, without, work);
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.end = SearchEnd{kStage, {}};
@@ -87,16 +77,21 @@ void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, R
   const RankedFit filed = ranked_fit(likelihood, problem.as_filed(), work);
   made.nothing = explained(problem, filed, true);
   made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best, true);
-  const auto keep = [&](const RankedFit& one) {
-    if (one.candidate.effects.empty()) return;
-    auto& kept = made.sets_like(one.candidate);
-    if (find_set(kept, one.candidate) != kept.end()) return;
-    kept.push_back(explained(problem, one, one.score < best.score + kReported));
+  const auto explained_near = [&](const RankedFit& one) {
+    return explained(problem, one, one.score < best.score + kReported);
   };
-  for (const RankedFit& one : sets.best) keep(one);
+  const auto is_kept = [&](const Candidate& set) {
+    auto& kept = made.sets_like(set);
+    return set.effects.empty() || find_set(kept, set) != kept.end();
+  };
+  for (const RankedFit& one : sets.best) {
+    if (is_kept(one.candidate)) continue;
+    made.sets_like(one.candidate).push_back(explained_near(one));
+  }
   for (const RankedFit& one : without) {
-    keep(one);
-    made.without.push_back(explained(problem, one, false));
+    made.without.push_back(explained_near(one));
+    if (is_kept(one.candidate)) continue;
+    made.sets_like(one.candidate).push_back(made.without.back());
   }
   sort_by_fit(made.singles);
   sort_by_fit(made.combinations);

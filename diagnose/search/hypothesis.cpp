@@ -1,5 +1,6 @@
 #include "diagnose/search/hypothesis.hpp"
 
+#include "arm/effect_label.hpp"
 #include "arm/effects.hpp"
 #include "arm/linear_arm.hpp"
 #include "arm/rigid_hub.hpp"
@@ -102,7 +103,7 @@ std::optional<std::size_t> first_of(const std::vector<SearchedParameter>& parame
 }  // namespace
 
 std::string Hypothesis::label() const {
-  return sensor.empty() ? effect : effect + " on " + sensor;
+  return arm::effect_label(effect, sensor);
 }
 
 bool Hypothesis::shows_in(measured::RunKind kind) const {

@@ -37,8 +37,8 @@ class Posterior {
   /// `sets` must outlive the object: no cause, and sets of causes, each set once.
   Posterior(std::vector<const Explanation*> sets, std::size_t hypotheses,
             const SelectionOptions& options);
-  /// By the scores of the sets (Explanation::score), which all must have: exp(-score/2) over their
-  /// sum.
+  /// Takes sets with scores (Explanation::score), whose probabilities are exp(-score/2) over the sum
+  /// of these.
   explicit Posterior(const std::vector<const Explanation*>& scored_sets);
 
   /// Of all sets that have this cause; shared evenly with its `other_names`.

@@ -80,22 +80,17 @@ Posterior posterior_of(const Selection& selection, const SelectionOptions& optio
            has_limit_in_place(chosen.fit.candidate, explanation.fit.candidate) &&
            !clears_bars(explanation, chosen, options);
   };
+  const auto is_left_out = [&](const Explanation& explanation) {
+    return is_inconsistent(explanation) || adds_nothing(explanation) || !is_identified(explanation);
+  };
   if (is_new(chosen)) sets.push_back(&chosen);
-  if (chosen.score) {
-    for (const auto* found : {&selection.singles, &selection.combinations}) {
-      for (const Explanation& set : *found) {
-        if (set.score && is_new(set)) sets.push_back(&set);
-      }
-    }
-    return Posterior(sets);
-  }
   for (const auto* found : {&selection.singles, &selection.combinations}) {
     for (const Explanation& explanation : *found) {
-      if (is_inconsistent(explanation) || adds_nothing(explanation)) continue;
-      if (!is_identified(explanation)) continue;
+      if (!chosen.score && is_left_out(explanation)) continue;
       if (is_new(explanation)) sets.push_back(&explanation);
     }
   }
+  if (chosen.score) return Posterior(sets);
   return {sets, selection.hypotheses, options};
 }
 

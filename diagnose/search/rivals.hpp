@@ -37,8 +37,8 @@ inline constexpr double kIndistinguishableOdds = 20.0;
 /// Of the sets that were fitted: no cause, singles, combinations, the chosen one. Not those that
 /// leave no noise and have an effect of `selection.inconsistent`. Where the chosen one leaves
 /// noise, not those with a general effect in place of its limit there that do not clear the bars
-/// over it: they are the chosen one with a parameter that is not needed. By their scores, where the
-/// chosen one has one.
+/// over it: they are the chosen one with a parameter that is not needed. All of them, by their
+/// scores, where the sets have scores.
 Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
 
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival

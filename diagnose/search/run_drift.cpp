@@ -96,12 +96,8 @@ std::optional<RunFit> refitted(const Problem& problem, const Candidate& start, I
 std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
                                   std::size_t effect) {
   const Hypothesis& hypothesis = candidate.effects[effect];
-  Index at = 0;
-  for (std::size_t i = 0; i < effect; ++i) {
-    at += static_cast<Index>(candidate.effects[i].parameters.size());
-  }
   const std::size_t sized = hypothesis.size_parameter().value_or(0);
-  at += static_cast<Index>(sized);
+  const auto at = static_cast<Index>(candidate.values_before(effect) + sized);
   const SearchedParameter& parameter = hypothesis.parameters[sized];
   const auto& runs = problem.experiment().runs;
   std::vector<std::optional<RunFit>> fits(runs.size());

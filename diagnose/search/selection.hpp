@@ -50,8 +50,8 @@ struct Selection {
   std::optional<TorqueTiming> timing = {};  ///< by which torques were corrected
   /// That explains a good part of the excess residual, but does not leave noise: undecided.
   std::optional<TorqueTiming> undecided_timing = {};
-  /// By the ranked search, of each effect of the chosen set: the evidence for it, and the set
-  /// without it.
+  /// The evidence for each effect of the chosen set, and the set without it; empty by the staged
+  /// search.
   std::vector<EffectEvidence> evidence = {};
   std::vector<Explanation> without = {};
   std::optional<SearchEnd> end = {};  ///< of a search that is incomplete

@@ -1,5 +1,7 @@
 #include "diagnose/symptoms/drift_symptoms.hpp"
 
+#include "arm/unit_suffix.hpp"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -8,7 +10,7 @@ namespace flexarm::diagnose {
 
 std::vector<Symptom> drift_symptoms(const RunDrift& drift) {
   const auto [least, most] = drift.range();
-  const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
+  const std::string unit = arm::unit_suffix(drift.unit);
   Symptom one = symptom(SymptomKind::drift, "", drift.probability, 1);
   const std::string what =
       fmt::format("{} {}, estimated from each run", drift.effect, drift.parameter);

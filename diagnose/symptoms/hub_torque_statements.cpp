@@ -1,3 +1,4 @@
+#include "arm/unit_suffix.hpp"
 #include "diagnose/symptoms/hub_torque.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace {
 
 /// "0.0104 ± 0.0002 N m"
 std::string amount(const HubTorqueTerm& term) {
-  const std::string unit = term.unit == "1" ? "" : " " + term.unit;
+  const std::string unit = arm::unit_suffix(term.unit);
   return fmt::format("{:.4g} ± {:.2g}{}", std::abs(term.coefficient), term.std_error, unit);
 }
 

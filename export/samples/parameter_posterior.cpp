@@ -1,6 +1,7 @@
 #include "export/samples/parameter_posterior.hpp"
 
 #include "arm/arm_keys.hpp"
+#include "arm/effect_label.hpp"
 #include "arm/input_error.hpp"
 #include "arm/uncertainties.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -69,8 +70,8 @@ ArmDistribution read_set(const nlohmann::json& json, const arm::Arm& extended_ar
   made.probability = json.at("probability").get<double>();
   for (const NamedEffect& effect : identified) made.arm.effects.erase(effect.name);
   for (const NamedEffect& effect : effects_of(json)) {
-    made.effects += (made.effects.empty() ? "" : " + ") + effect.name +
-                    (effect.sensor.empty() ? "" : " on " + effect.sensor);
+    made.effects +=
+        (made.effects.empty() ? "" : " + ") + arm::effect_label(effect.name, effect.sensor);
     made.arm.effects[effect.name] = bare(effect, extended_arm);
   }
   for (const auto& parameter : json.at("parameters")) {

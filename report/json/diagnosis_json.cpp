@@ -23,7 +23,7 @@ Json gain_json(const diagnose::Gain& gain) {
           {"numerical_error", gain.numerical_error}};
 }
 
-/// Of a cause with grades.
+/// Returns the grade of a cause and the figures that it has.
 Json figures_json(const diagnose::Cause& cause) {
   const diagnose::EffectEvidence& figures = *cause.figures;
   Json runs = Json::array();

@@ -1,5 +1,6 @@
 #include "report/tables/diagnosis_tables.hpp"
 
+#include "arm/unit_suffix.hpp"
 #include "report/tables/evidence_tables.hpp"
 
 #include <fmt/format.h>
@@ -19,16 +20,12 @@ namespace {
 /// Of a cause that is named by itself.
 constexpr double kLeastProbability = diagnose::SelectionOptions{}.least_probability;
 
-std::string name_of(const diagnose::Cause& cause) {
-  return cause.sensor.empty() ? cause.effect : cause.effect + " on " + cause.sensor;
-}
-
 /// "coulomb_friction (probability 0.98)"; of a class "one of time_delay, actuator_lag (...)".
 std::string headline(const diagnose::Cause& cause) {
   if (cause.confidence >= kLeastProbability) {
-    return fmt::format("{} (probability {:.2f})", name_of(cause), cause.confidence);
+    return fmt::format("{} (probability {:.2f})", cause.label(), cause.confidence);
   }
-  return fmt::format("one of {}, {} (probability {:.2f} together)", name_of(cause),
+  return fmt::format("one of {}, {} (probability {:.2f} together)", cause.label(),
                      fmt::join(cause.confusable_with, ", "), cause.class_confidence);
 }
 
@@ -117,7 +114,7 @@ std::string floor_of(const diagnose::Gain& gain) {
 /// "root_compliance stiffness: 786 N m/rad (run low) to 906 N m/rad (run high)".
 std::string inconsistency_text(const diagnose::RunDrift& drift) {
   const auto [least, most] = drift.range();
-  const std::string unit = drift.unit == "1" ? "" : " " + drift.unit;
+  const std::string unit = arm::unit_suffix(drift.unit);
   return fmt::format("{} {}: {:.4g}{} (run {}) to {:.4g}{} (run {})", drift.effect, drift.parameter,
                      least.value, unit, least.run, most.value, unit, most.run);
 }
@@ -309,7 +306,7 @@ Table cause_table(const diagnose::Diagnosis& diagnosis) {
     for (std::size_t i = 0; i < cause.parameters.size(); ++i) {
       const auto& parameter = cause.parameters[i];
       const bool first = i == 0;
-      std::vector<Cell> row = {first ? Cell(name_of(cause)) : Cell(std::string()),
+      std::vector<Cell> row = {first ? Cell(cause.label()) : Cell(std::string()),
                                parameter.name,
                                parameter.value,
                                parameter.std_error,

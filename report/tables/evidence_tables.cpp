@@ -1,5 +1,7 @@
 #include "report/tables/evidence_tables.hpp"
 
+#include "arm/unit_suffix.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,23 +14,20 @@ namespace flexarm::report {
 
 namespace {
 
-/// "0.021 N m", "1.05", "0.031 s".
+/// Returns "0.021 N m", "1.05", "0.031 s".
 std::string value_text(const diagnose::ParameterEstimate& parameter) {
-  const std::string unit = parameter.unit == "1" ? "" : " " + parameter.unit;
-  return fmt::format("{:.3g}{}", parameter.value, unit);
+  return fmt::format("{:.3g}{}", parameter.value, arm::unit_suffix(parameter.unit));
 }
 
-/// "coulomb_friction 0.021 N m (established)"; with effects that do as well "... 0.021 N m, or
-/// torque_dead_zone (supported)"; parameters behind the first with their names.
+/// Returns "coulomb_friction 0.021 N m (established)"; with effects that do as well "... 0.021 N m,
+/// or torque_dead_zone (supported)"; parameters behind the first with their names.
 std::string cause_text(const diagnose::Cause& cause) {
   std::vector<std::string> values;
   for (const auto& parameter : cause.parameters) {
     values.push_back(values.empty() ? value_text(parameter)
                                     : parameter.name + " " + value_text(parameter));
   }
-  std::string text = cause.effect;
-  if (!cause.sensor.empty()) text += " on " + cause.sensor;
-  text += fmt::format(" {}", fmt::join(values, ", "));
+  std::string text = fmt::format("{} {}", cause.label(), fmt::join(values, ", "));
   if (!cause.confusable_with.empty()) {
     text += fmt::format(", or {}", fmt::join(cause.confusable_with, " or "));
   }
@@ -65,7 +64,7 @@ std::string left_text(const diagnose::Diagnosis& diagnosis) {
       100.0 * largest->after);
 }
 
-/// The least and the largest estimate of the first parameter by a run, "0.0198 to 0.0205".
+/// Returns the least and the largest estimate of the first parameter by a run: "0.0198 to 0.0205".
 std::string range_text(const std::vector<diagnose::RunEstimate>& runs) {
   if (runs.empty()) return "";
   const auto first = [](const diagnose::RunEstimate& run) { return run.values.front(); };
@@ -104,8 +103,7 @@ Table evidence_table(const diagnose::Diagnosis& diagnosis) {
   for (const auto& cause : diagnosis.causes) {
     if (!cause.figures) continue;
     const diagnose::EffectEvidence& figures = *cause.figures;
-    table.add_row({cause.sensor.empty() ? cause.effect : cause.effect + " on " + cause.sensor,
-                   std::string(to_string(cause.grade)), figures.estimation,
+    table.add_row({cause.label(), std::string(to_string(cause.grade)), figures.estimation,
                    figures.held_out ? Cell(*figures.held_out) : Cell(),
                    100.0 * figures.error_without, 100.0 * figures.error_increase,
                    100.0 * figures.error_increase_std_error, range_text(figures.runs),

@@ -1,5 +1,7 @@
 #include "report/tables/missing_force_table.hpp"
 
+#include "arm/unit_suffix.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +19,7 @@ std::string share_text(double share, double std_error) {
 }
 
 std::string size_text(const diagnose::ForceSize& size) {
-  const std::string unit = size.unit == "1" ? "" : " " + size.unit;
+  const std::string unit = arm::unit_suffix(size.unit);
   std::string text = fmt::format(" Its RMS value is {:.3g}{}", size.rms, unit);
   if (size.std_error) text += fmt::format(" (standard error {:.2g}{})", *size.std_error, unit);
   return text +

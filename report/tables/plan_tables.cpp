@@ -1,5 +1,7 @@
 #include "report/tables/plan_tables.hpp"
 
+#include "arm/unit_suffix.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -24,11 +26,10 @@ std::string label_of(const Plan& plan, std::size_t effect) {
 /// "mass 0.0012 kg", "factor 1 +0.03 %".
 std::string value_text(const diagnose::Hypothesis& hypothesis,
                        const diagnose::SearchedParameter& parameter, double value) {
-  const std::string unit = hypothesis.unit_of(parameter);
-  const std::string in_unit = unit == "1" ? "" : " " + unit;
+  const std::string unit = arm::unit_suffix(hypothesis.unit_of(parameter));
   const double neutral = parameter.neutral.value_or(0.0);
-  if (neutral == 0.0) return fmt::format("{} {:.3g}{}", parameter.name, value, in_unit);
-  return fmt::format("{} {:.3g}{} {:+.2g} %", parameter.name, neutral, in_unit,
+  if (neutral == 0.0) return fmt::format("{} {:.3g}{}", parameter.name, value, unit);
+  return fmt::format("{} {:.3g}{} {:+.2g} %", parameter.name, neutral, unit,
                      100.0 * (value / neutral - 1.0));
 }
 

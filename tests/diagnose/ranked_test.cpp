@@ -28,9 +28,7 @@ class RankedTest : public testing::Test {
   const Hypothesis& hypothesis(const std::string& effect) const {
     return *std::ranges::find(hypotheses_, effect, &Hypothesis::effect);
   }
-  double cost_of(const Candidate& candidate) const {
-    return likelihood_.cost(likelihood_.lines_of(candidate).value());
-  }
+  double cost_of(const Candidate& candidate) const { return likelihood_.cost_of(candidate); }
   Candidate friction(double torque_N_m) const {
     return problem_.as_filed().with(hypothesis("coulomb_friction"), {torque_N_m});
   }
@@ -95,7 +93,7 @@ TEST_F(RankedTest, ABandCountsByItsSampleSize) {
   const ObservedChannel& channel = problem_.observations().channels.front();
   VectorXd lines = VectorXd::Zero(problem_.residual_count());
   lines.segment(channel.first, channel.count).setConstant(1e6);
-  // Of the highest octave: the derivative of m ln S is m/S.
+  // The derivative of m ln S is m/S; the highest octave has half of the lines.
   const Index lines_of_octave = channel.count / 2;
   const double squares = 1e12 * static_cast<double>(lines_of_octave);
   const double weight = likelihood_.weights(lines)(channel.first + channel.count - 1);
@@ -187,7 +185,8 @@ TEST_F(RankedTest, EvidenceIsWhatIsLostWithoutAnEffect) {
   for (const std::size_t i : {0u, 1u}) {
     without.push_back(ranked_fit(likelihood_, both.candidate.without(i), work_));
   }
-  const auto evidence = evidence_for_each(likelihood_, both, without, work_);
+  const Likelihood held_out(problem_, problem_.validation_runs());
+  const auto evidence = evidence_for_each(held_out, both, without, work_);
   ASSERT_EQ(evidence.size(), 2u);
   for (const EffectEvidence& one : evidence) {
     EXPECT_GT(one.estimation, kBeyondDoubt);

@@ -148,7 +148,7 @@ std::string evidence_text(const diagnose::Diagnosis& diagnosis) {
 std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
   std::string text = verdict_paragraph(diagnosis) + "\n" + restrictions_text(diagnosis);
   text += screen_table(report::cause_table(diagnosis), 2);
-  text += screen_table(report::evidence_table(diagnosis));
+  text += screen_table(report::loss_table(diagnosis));
   text += screen_table(report::gain_table(diagnosis));
   if (verbose) text += evidence_text(diagnosis);
   const std::string predictor = report::predictor_text(diagnosis);
@@ -196,7 +196,7 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
     if (!table.rows.empty()) files.push_back({name, report::to_csv(table)});
   };
   const diagnose::Symptoms& symptoms = diagnosis.symptoms;
-  add_table("evidence.csv", report::evidence_table(diagnosis));
+  add_table("evidence.csv", report::loss_table(diagnosis));
   add_table("symptoms.csv", report::symptom_table(symptoms));
   add_table("bands.csv", report::band_table(symptoms));
   add_table("roots.csv", report::root_shift_table(symptoms));

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +15,7 @@ std::string_view to_string(Grade grade);
 
 /// The parameters of an effect by one run alone, the other effects held: in the parameters' units.
 struct RunEstimate {
-  std::size_t run = 0;  ///< index of Experiment::runs
+  std::string run;  ///< its id
   std::vector<double> values;
   std::vector<double> std_errors;
 };

@@ -89,7 +89,8 @@ class RunEstimates {
     VectorXd weighted_steps = VectorXd::Zero(count);
     double squares = 0.0;
     int runs = 0;
-    for (std::size_t r = 0; r < all_runs_.runs().size(); ++r) {
+    const auto& measured_runs = all_runs_.problem().experiment().runs;
+    for (std::size_t r = 0; r < measured_runs.size(); ++r) {
       const auto [of_run, gradient] = normal_equations(r, first, count);
       const Eigen::LLT<MatrixXd> solver(of_run);
       if (solver.info() != Eigen::Success) continue;
@@ -100,7 +101,7 @@ class RunEstimates {
       information += of_run;
       weighted_steps += of_run * step;
       squares += step.dot(of_run * step);
-      RunEstimate estimate{.run = r, .values = {}, .std_errors = {}};
+      RunEstimate estimate{.run = measured_runs[r].run.id, .values = {}, .std_errors = {}};
       for (Index i = 0; i < count; ++i) {
         const auto& parameter = parameters[static_cast<std::size_t>(i)];
         const double deviation = std::sqrt(variances(i));

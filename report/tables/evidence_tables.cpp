@@ -86,7 +86,7 @@ std::string graded_verdict_text(const diagnose::Diagnosis& diagnosis) {
                      is_explained ? "The residuals are noise." : left_text(diagnosis));
 }
 
-Table evidence_table(const diagnose::Diagnosis& diagnosis) {
+Table loss_table(const diagnose::Diagnosis& diagnosis) {
   const bool is_held_out = diagnosis.validation.has_value();
   Table table{"Evidence: what is lost without each effect",
               {{.name = "effect"},

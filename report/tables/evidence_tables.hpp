@@ -17,6 +17,6 @@ std::string graded_verdict_text(const diagnose::Diagnosis& diagnosis);
 
 /// Returns what is lost without each cause, and how its estimates agree between runs: a row a
 /// cause; no rows without grades.
-Table evidence_table(const diagnose::Diagnosis& diagnosis);
+Table loss_table(const diagnose::Diagnosis& diagnosis);
 
 }  // namespace flexarm::report

@@ -69,7 +69,7 @@ TEST(GradedVerdictText, HasCausesWithValuesAndGradesAndWhatIsLeft) {
             "Partly explained: coulomb_friction 0.021 N m, or torque_dead_zone (supported). "
             "Held-out NRMSE falls from 6.52e+03 to 65 %; the noise floor is 1 %. The residuals are "
             "not noise: largest from 2 to 9 Hz at hub_angle (run low), 50 % of its signal.");
-  const Table table = evidence_table(made);
+  const Table table = loss_table(made);
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_EQ(std::get<std::string>(table.rows[0][1]), "supported");
 }

@@ -29,9 +29,6 @@ constexpr double kTotalChance = 2.5;
 /// The factor to which the simulation's own error is known: it is that of the arm as filed.
 constexpr double kErrorKnown = 10.0;
 
-/// Flexible modes by which the truncation of a simulation is judged.
-constexpr int kFurtherModes = 4;
-
 /// The orthonormal DCT-II of one length, by one Fourier transform of the even samples followed by
 /// the odd ones in reverse [Makhoul1980].
 class CosineTransform {
@@ -108,17 +105,16 @@ std::vector<Index> octaves(Index lines) {
   return firsts;
 }
 
-/// Returns the change of the residuals of the arm as filed by kFurtherModes modes more, of the
-/// `time` runs among `runs`; 0 where there is no such arm, and by a Kalman filter, whose noise
-/// model stands for it.
-VectorXd truncation_of(const Problem& problem, std::vector<bool> runs) {
+/// Returns the change of the residuals of the arm as filed by a simulation with `modes` flexible
+/// modes, of the `time` runs among `runs`; 0 where there is no such arm, and by a Kalman filter,
+/// whose noise model stands for it.
+VectorXd truncation_of(const Problem& problem, std::vector<bool> runs, int modes) {
   if (problem.predictor().noise()) return VectorXd::Zero(problem.residual_count());
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (problem.experiment().runs[r].run.kind != measured::RunKind::time) runs[r] = false;
   }
   const Candidate filed = problem.as_filed();
   const auto with_own = problem.residuals(filed, runs);
-  const int modes = problem.predictor().flexible_modes() + kFurtherModes;
   const auto with_more = problem.with_modes(modes).residuals(filed, runs);
   if (!with_own || !with_more) return VectorXd::Zero(problem.residual_count());
   return *with_own - *with_more;
@@ -127,9 +123,13 @@ VectorXd truncation_of(const Problem& problem, std::vector<bool> runs) {
 }  // namespace
 
 Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
+    : Likelihood(problem, std::move(runs), problem.predictor().flexible_modes()) {}
+
+Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
-  const VectorXd truncation = lines(truncation_of(problem, runs_)).cwiseAbs2();
+  const VectorXd truncation =
+      lines(truncation_of(problem, runs_, flexible_modes + kFurtherModes)).cwiseAbs2();
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {

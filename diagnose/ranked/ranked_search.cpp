@@ -2,13 +2,12 @@
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/ranked/moves.hpp"
-#include "diagnose/search/coarse.hpp"
+#include "diagnose/ranked/part_of_data.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -21,19 +20,26 @@ using Labels = std::set<std::string>;
 
 /// A fit that shows which of several starts are worth going on with, and one that goes on.
 constexpr RankedFitOptions kFirstLook = {.most_steps = 3, .tolerance = 0.5, .takes_secants = true};
-constexpr RankedFitOptions kLook = {.most_steps = 10, .tolerance = 0.5, .takes_secants = true};
+constexpr RankedFitOptions kLook = {.most_steps = 25, .tolerance = 0.5, .takes_secants = true};
 
 /// The moves of a set that are fitted: `predicted` are those that are predicted to lower the score
 /// most. `broad` ones also add every effect of several parameters, whether or not that is predicted
 /// to lower it: the prediction knows a few of their shapes, and a fit changes these. A climb takes
-/// them first, and where no predicted move lowers the score.
+/// them first, and where no predicted move lowers the score, unless the set leaves noise.
 enum class Looks { predicted, broad };
+
+/// Starts of one set that a fit goes on from after the first look.
+constexpr std::size_t kStartsOfOne = 3;
 
 /// Rivals of each effect of the final set that are fitted.
 constexpr std::size_t kRivalsOfOne = 2;
 
 /// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
 enum class Climb { to_noise, to_the_end };
+
+bool leaves_noise(const Likelihood& likelihood, const RankedFit& set) {
+  return set.is_possible() && likelihood.is_noise(set.lines);
+}
 
 /// One climb on a rung of the ladder, which has a part of the data, or all.
 class Rung {
@@ -60,20 +66,22 @@ class Rung {
   /// Replaces fitted sets of the beam by neighbours while the best score falls.
   void climb(std::vector<RankedFit>& beam, std::size_t width, Looks first_looks) {
     if (!beam.front().is_possible()) return;
-    for (const RankedFit& one : beam) met_.insert(one.candidate.labels());
+    for (const RankedFit& one : beam) meet(one);
     keep_best(beam, width);
-    for (Looks looks = first_looks; !is_over(beam.front());) {
+    const auto widest = [&] { return is_noise(beam.front()) ? Looks::predicted : first_looks; };
+    for (Looks looks = widest(); !is_over(beam.front());) {
       const double before = beam.front().score;
       std::vector<RankedFit> neighbours;
       for (const RankedFit& base : beam) {
+        if (&base != &beam.front() && is_noise(beam.front())) break;
         if (!expanded_.insert({base.candidate.labels(), looks}).second) continue;
         std::ranges::move(neighbours_of(base, looks), std::back_inserter(neighbours));
       }
       std::ranges::move(neighbours, std::back_inserter(beam));
       keep_best(beam, width);
       const bool falls = beam.front().score < before;
-      if (!falls && looks == first_looks) break;
-      looks = falls ? Looks::predicted : first_looks;
+      if (!falls && looks == widest()) break;
+      looks = falls ? Looks::predicted : widest();
     }
     beam.front() = fitted(beam.front().candidate);
   }
@@ -121,17 +129,23 @@ class Rung {
   }
 
  private:
-  bool is_over(const RankedFit& best) const {
-    return end_ == Climb::to_noise && likelihood_.is_noise(best.lines);
+  bool is_over(const RankedFit& best) const { return end_ == Climb::to_noise && is_noise(best); }
+
+  bool is_noise(const RankedFit& set) const { return leaves_noise(likelihood_, set); }
+
+  /// Keeps the fits of the lowest score, of `most` sets of effects and so many of one set.
+  static void keep_best(std::vector<RankedFit>& fits, std::size_t most, std::size_t of_one = 1) {
+    std::ranges::stable_sort(fits, {}, &RankedFit::score);
+    std::map<Labels, std::size_t> kept;
+    std::erase_if(fits, [&](const RankedFit& one) {
+      const Labels labels = one.candidate.labels();
+      return (kept.size() == most && !kept.contains(labels)) || kept[labels]++ >= of_one;
+    });
   }
 
-  /// Keeps the fits of the lowest score, one a set of effects.
-  static void keep_best(std::vector<RankedFit>& fits, std::size_t most) {
-    std::ranges::stable_sort(fits, {}, &RankedFit::score);
-    std::set<Labels> kept;
-    std::erase_if(fits, [&](const RankedFit& one) {
-      return kept.size() == most || !kept.insert(one.candidate.labels()).second;
-    });
+  void meet(const RankedFit& fit) {
+    const auto [at, is_new] = met_.try_emplace(fit.candidate.labels(), fit.score);
+    at->second = std::min(at->second, fit.score);
   }
 
   /// Returns the moves of `set`, which are computed once.
@@ -143,7 +157,8 @@ class Rung {
 
   RankedFit fitted(const Candidate& start) const { return ranked_fit(likelihood_, start, work_); }
 
-  /// Returns the moves of `base` that are fitted, to sets that were not met before.
+  /// Returns the moves of `base` that are fitted: to sets that were not met before, and to smaller
+  /// ones that were met at another minimum.
   std::vector<Move> looked_at(const RankedFit& base, Looks kind) {
     std::vector<Move> moves = moves_from(base);
     std::size_t looks = 0;
@@ -153,7 +168,12 @@ class Rung {
                             one.added->parameters.size() > 1;
       if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
       const Labels labels = one.of(base.candidate).labels();
-      if (met_.insert(labels).second) new_sets.insert(labels);
+      const auto met = met_.find(labels);
+      if (met == met_.end()) {
+        new_sets.insert(labels);
+      } else if (one.added == nullptr && one.score < met->second - options_.worth) {
+        new_sets.insert(labels);
+      }
       if (!new_sets.contains(labels)) return true;
       if (!is_broad) ++looks;
       return false;
@@ -169,10 +189,11 @@ class Rung {
       fits[i] = ranked_fit(likelihood_, moves[i].of(base.candidate), work_, kFirstLook, &base);
     });
     std::erase_if(fits, [](const RankedFit& one) { return !one.is_possible(); });
-    keep_best(fits, options_.looks);
+    keep_best(fits, options_.looks, kStartsOfOne);
     in_parallel(fits.size(), [&](std::size_t i) {
       fits[i] = ranked_fit(likelihood_, fits[i].candidate, work_, kLook, &fits[i]);
     });
+    for (const RankedFit& one : fits) meet(one);
     std::erase_if(fits, [&](const RankedFit& one) { return !can_be_timed(one.candidate); });
     return fits;
   }
@@ -192,7 +213,7 @@ class Rung {
   const RankedOptions& options_;
   const ReportedWork& work_;
   Climb end_;
-  std::set<Labels> met_;                         ///< sets that were fitted
+  std::map<Labels, double> met_;                 ///< the lowest score of each set that was fitted
   std::set<std::pair<Labels, Looks>> expanded_;  ///< whose neighbours were
   std::map<Labels, std::vector<Move>> moves_;
 };
@@ -202,13 +223,6 @@ std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
   std::erase_if(hypotheses,
                 [](const Hypothesis& one) { return one.entry->prior != effects::Likely::common; });
   return hypotheses;
-}
-
-/// Returns a part of a problem: so many samples of each run, and a few modes.
-Problem part_of(const Problem& problem, std::size_t samples, const RankedOptions& options) {
-  const int modes = std::min(options.coarse_modes, problem.predictor().flexible_modes());
-  return {std::make_shared<const Experiment>(coarse(problem.experiment(), samples)),
-          {.flexible_modes = modes}};
 }
 
 /// Adds the rivals of the best set (Rung::rivals) that do nearly as well on a part of the data to
@@ -228,18 +242,6 @@ void add_rivals(const Likelihood& likelihood, const Likelihood& part,
   beam.front() = ranked_fit(likelihood, beam.front().candidate, work);
 }
 
-/// Returns the number of samples of the longest `time` run for estimation; 0 without any.
-std::size_t longest_run(const Experiment& experiment) {
-  std::size_t longest = 0;
-  for (const auto& [run, data] : experiment.runs) {
-    if (run.purpose != measured::Purpose::estimation) continue;
-    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
-      longest = std::max(longest, record->time_s.size());
-    }
-  }
-  return longest;
-}
-
 }  // namespace
 
 RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
@@ -251,21 +253,25 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
   std::vector<Hypothesis> common = common_of(hypotheses);
   std::size_t most = hypotheses.size();
   bool has_climbed = false;
+  // Returns whether one effect leaves noise: then no set imitates it with fewer numbers.
   const auto climb_afresh = [&](const Likelihood& part, const std::vector<Hypothesis>& effects,
-                                std::size_t width, Climb end) {
+                                std::size_t width) {
     std::vector<RankedFit> fresh;
-    Rung rung(part, effects, options, work, end);
+    Rung rung(part, effects, options, work, Climb::to_noise);
     rung.fit(fresh);
     rung.climb(fresh, width, Looks::broad);
+    const RankedFit& best = fresh.front();
+    const bool is_one = best.candidate.effects.size() <= 1 && leaves_noise(part, best);
     std::ranges::move(fresh, std::back_inserter(beam));
+    return is_one;
   };
   const auto climb = [&](const Likelihood& part, std::size_t width, Climb end) {
     Rung rung(part, searched, options, work, end);
     rung.fit(beam);
-    const bool is_noise = beam.front().is_possible() && part.is_noise(beam.front().lines);
+    const bool is_noise = leaves_noise(part, beam.front());
     if (!is_noise) {
-      climb_afresh(part, common, width, end);
-      if (!has_climbed) climb_afresh(part, hypotheses, width, end);
+      const bool is_one = !has_climbed && climb_afresh(part, hypotheses, width);
+      if (!is_one) climb_afresh(part, common, width);
     }
     const bool is_broad = !is_noise && !has_climbed;
     rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
@@ -280,9 +286,8 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
-      const Problem part = part_of(problem, samples, options);
-      const Likelihood of_part(part, part.estimation_runs());
-      climb(of_part, width, Climb::to_noise);
+      const PartOfData part(problem, samples, options.coarse_modes);
+      climb(part.likelihood(), width, Climb::to_noise);
       width = has_climbed ? 1 : width;
     }
     work.tell("effects on all data", 0.5);
@@ -290,9 +295,8 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
     if (beam.front().candidate.effects.empty()) return {std::move(beam)};
     work.tell("rivals of the effects that were found", 0.8);
     if (options.rungs[1] < longest) {
-      const Problem part = part_of(problem, options.rungs[1], options);
-      add_rivals(likelihood, Likelihood(part, part.estimation_runs()), hypotheses, options, work,
-                 beam);
+      const PartOfData part(problem, options.rungs[1], options.coarse_modes);
+      add_rivals(likelihood, part.likelihood(), hypotheses, options, work, beam);
     } else {
       add_rivals(likelihood, likelihood, hypotheses, options, work, beam);
     }

@@ -17,6 +17,9 @@ struct RankedOptions {
   /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
   /// known better.
   double least_time = 0.1;
+  /// A set that was fitted is fitted again from another start that is predicted to be lower by
+  /// this.
+  double worth = 1.0;
   /// A rival whose score on a part of the data is higher by less than this is fitted to all data.
   double near = 10.0;
   /// Flexible modes on the rungs below all data <= this.

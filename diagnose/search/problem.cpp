@@ -79,6 +79,12 @@ Problem::Problem(std::shared_ptr<const Experiment> experiment, const ProblemOpti
   own_experiment_ = std::move(experiment);
 }
 
+Problem::Problem(std::shared_ptr<const Experiment> experiment, Observations observations,
+                 const ProblemOptions& options)
+    : Problem(*experiment, std::move(observations), options) {
+  own_experiment_ = std::move(experiment);
+}
+
 bool Problem::has_validation_runs() const {
   return std::ranges::count(validation_runs_, true) > 0;
 }

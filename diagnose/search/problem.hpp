@@ -35,6 +35,8 @@ class Problem {
   /// With other standard deviations than those that the data show (`observe`).
   Problem(const Experiment& experiment, Observations observations,
           const ProblemOptions& options = {});
+  Problem(std::shared_ptr<const Experiment> experiment, Observations observations,
+          const ProblemOptions& options);
 
   const Experiment& experiment() const { return *experiment_; }
   const Observations& observations() const { return observations_; }

@@ -11,6 +11,7 @@
 #include <map>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 namespace flexarm::diagnose {
 
@@ -105,6 +106,26 @@ std::vector<Index> octaves(Index lines) {
   return firsts;
 }
 
+/// The first number of each octave of a channel of a response, from the highest one down: two
+/// numbers, real and imaginary part, a line.
+std::vector<Index> octaves(const std::vector<double>& frequencies_Hz) {
+  std::vector<Index> firsts;
+  auto end = std::ssize(frequencies_Hz);
+  while (end > kFewestLines) {
+    const double top_Hz = frequencies_Hz[static_cast<std::size_t>(end - 1)];
+    Index first = end;
+    while (first > 0 && (frequencies_Hz[static_cast<std::size_t>(first - 1)] > 0.5 * top_Hz ||
+                         end - first < kFewestLines)) {
+      --first;
+    }
+    if (first < kFewestLines) break;
+    firsts.push_back(2 * first);
+    end = first;
+  }
+  firsts.push_back(0);
+  return firsts;
+}
+
 /// Returns the change of the residuals of the arm as filed by a simulation with `modes` flexible
 /// modes, of the `time` runs among `runs`; 0 where there is no such arm, and by a Kalman filter,
 /// whose noise model stands for it.
@@ -132,7 +153,19 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
       lines(truncation_of(problem, runs_, flexible_modes + kFurtherModes)).cwiseAbs2();
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
-    if (problem.experiment().runs[channel.run].run.kind != measured::RunKind::time) {
+    const auto& data = problem.experiment().runs[channel.run].data;
+    if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
+      const auto own = std::ranges::find_if(record->channels, [&](const auto& one) {
+        return arm::to_string(one.sensor) == channel.sensor;
+      });
+      Index end = channel.count;
+      for (const Index first : octaves(own->frequency_Hz)) {
+        bands_.push_back({channel.first + first, end - first, 0.0, true});
+        end = first;
+      }
+      continue;
+    }
+    if (std::holds_alternative<measured::ModalTable>(data)) {
       bands_.push_back({channel.first, channel.count, 0.0, true});
       continue;
     }
@@ -182,7 +215,7 @@ double Likelihood::cost_of(const Candidate& candidate) const {
 }
 
 double Likelihood::Band::sample_size() const {
-  return std::min(static_cast<double>(count), kSampleSize);
+  return is_stated ? kSampleSize : std::min(static_cast<double>(count), kSampleSize);
 }
 
 double Likelihood::Band::cost(double sum) const {

@@ -2,10 +2,12 @@
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/ranked/evidence_of_fit.hpp"
+#include "diagnose/ranked/nuisances.hpp"
 #include "diagnose/ranked/ranked_search.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -56,17 +58,86 @@ Explanation explained(const Problem& problem, const RankedFit& made, bool has_de
   return explanation;
 }
 
-/// Throws Cancelled where the work is cancelled, but not after its deadline.
-void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, ReportedWork& work,
-            Selection& made) {
-  constexpr const char* kStage = "ranked search";
+/// Returns the sets of a problem whose noise is as the best of them shows it: where the data alone
+/// show a higher level, at which a search ended too early, it is made again.
+RankedSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses, ReportedWork& work) {
   const Likelihood likelihood(problem, problem.estimation_runs());
   RankedSets sets = ranked_search(likelihood, hypotheses, {}, work);
+  const RankedFit& best = sets.best.front();
+  if (!sets.is_complete || !best.is_possible() || !likelihood.is_noise(best.lines)) return sets;
+  Problem lowered = problem;
+  if (!lowered.lower_noise(best.candidate)) return sets;
+  const Likelihood in_lower_noise(lowered, lowered.estimation_runs());
+  const auto lines = in_lower_noise.lines_of(best.candidate);
+  if (!lines || in_lower_noise.is_noise(*lines)) return sets;
+  problem = lowered;
+  return ranked_search(in_lower_noise, hypotheses, {}, work);
+}
+
+/// Returns the set without its effects on timing, which a jitter of the torque looks like.
+Candidate without_timing(Candidate set) {
+  for (std::size_t i = set.effects.size(); i-- > 0;) {
+    if (set.effects[i].entry->family == effects::Family::timing) set = set.without(i);
+  }
+  return set;
+}
+
+/// Searches again with corrected torques, where their timing explains much of what the first search
+/// leaves; the sets of both are `made`'s where that leaves noise.
+void search_with_timing(Selection& made, RankedSets& sets,
+                        const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
+                        ReportedWork& work) {
+  const Candidate& best = sets.best.front().candidate;
+  auto timed = with_timing(made.problem, without_timing(best), options);
+  if (!timed) timed = with_timing(made.problem, best, options);
+  if (!timed) return;
+  RankedSets again = search(timed->problem, hypotheses, work);
+  const Candidate& found = again.best.front().candidate;
+  Problem lowered = timed->problem;
+  lowered.lower_noise(found);
+  if (explain(lowered, fit(lowered, found, {.most_steps = 0})).leaves_noise()) {
+    made.problem = timed->problem;
+    made.timing = std::move(timed->timing);
+    sets = std::move(again);
+  } else {
+    made.undecided_timing = std::move(timed->timing);
+  }
+}
+
+/// Takes up the noise that the data show beside the best set, white or coloured. Where the arm as
+/// filed leaves noise of some colour, that is the best set.
+void see_noise(Problem& problem, RankedFit& best, const RankedFit& filed, ReportedWork& work) {
+  problem.lower_noise(best.candidate);
+  for (const RankedFit* set : {&filed, static_cast<const RankedFit*>(&best)}) {
+    auto coloured = with_noise_colour(problem, set->candidate, work);
+    if (!coloured) continue;
+    problem = *std::move(coloured);
+    if (set == &filed) best = filed;
+    return;
+  }
+}
+
+/// Throws Cancelled where the work is cancelled, but not after its deadline.
+void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
+            ReportedWork& work, Selection& made) {
+  constexpr const char* kStage = "ranked search";
+  RankedSets sets = search(made.problem, hypotheses, work);
   if (!sets.is_complete) made.end = SearchEnd{kStage, {}};
-  RankedFit& best = sets.best.front();
   std::vector<RankedFit> without;
   try {
-    const Likelihood held_out(problem, problem.validation_runs());
+    if (sets.is_complete) search_with_timing(made, sets, hypotheses, options, work);
+  } catch (const Cancelled&) {
+    if (!work.is_out_of_time()) throw;
+    made.end = SearchEnd{kStage, {}};
+  }
+  const Problem searched = made.problem;
+  const Likelihood likelihood(searched, searched.estimation_runs());
+  RankedFit& best = sets.best.front();
+  RankedFit filed;
+  try {
+    filed = ranked_fit(likelihood, searched.as_filed(), work);
+    see_noise(made.problem, best, filed, work);
+    const Likelihood held_out(searched, searched.validation_runs());
     without = drop_by_validation(likelihood, held_out, best, work);
     made.evidence = evidence_for_each(held_out, best, without, work);
   } catch (const Cancelled&) {
@@ -74,7 +145,8 @@ void search(const Problem& problem, const std::vector<Hypothesis>& hypotheses, R
     made.end = SearchEnd{kStage, {}};
   }
   work.lift_deadline();
-  const RankedFit filed = ranked_fit(likelihood, problem.as_filed(), work);
+  if (!filed.is_possible()) filed = ranked_fit(likelihood, searched.as_filed(), work);
+  const Problem& problem = made.problem;
   made.nothing = explained(problem, filed, true);
   made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best, true);
   const auto explained_near = [&](const RankedFit& one) {
@@ -105,7 +177,7 @@ Selection ranked_selection(const Problem& problem, const std::vector<Hypothesis>
   made.hypotheses = hypotheses.size();
   ReportedWork work(progress, options.deadline);
   try {
-    search(problem, hypotheses, work, made);
+    select(hypotheses, options, work, made);
   } catch (const Cancelled&) {
     made.cancelled = true;
   }

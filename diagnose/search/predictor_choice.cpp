@@ -116,7 +116,9 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
                                             const Problem& problem,
                                             const DiagnosisProgress& progress) {
   // Refitted numbers do not bring a simulation near the data that no effect brings near.
-  if (!is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
+  const bool is_ranked = task.options.method == SearchMethod::ranked;
+  if (!is_ranked &&
+      !is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
     auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
     if (numbers) return *std::move(numbers);
   }
@@ -213,6 +215,36 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
   return made;
 }
 
+/// By noise of the recorded torque where that leaves noise beside no effect, else by simulation
+/// with the ranked search; by noise of the torque again beside the effects that this names; and
+/// where it names none, by the other predictors.
+PredictedSelection select_by_ranks(const SelectionTask& task, const Problem& problem,
+                                   const DiagnosisProgress& progress) {
+  const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
+    return select_with_torque_noise({effects, task.options}, problem, part_of(progress, from, to));
+  };
+  if (!is_adequate(problem, task.options.deadline)) {
+    if (auto noisy = beside({}, 0.0, 0.1)) return *std::move(noisy);
+  }
+  PredictedSelection made = select_by_simulation(task, problem, part_of(progress, 0.1, 0.7));
+  if (made.selection.cancelled) return made;
+  if (made.selection.chosen.leaves_noise()) {
+    made.reason = "its residuals are noise";
+    return made;
+  }
+  const std::vector<Hypothesis> named = made.selection.chosen.fit.candidate.effects;
+  try {
+    require_time(task.options.deadline);
+    if (named.empty()) return select_beyond_simulation(made, task, problem, progress);
+    if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
+    made.reason = "others are tried where a simulation names nothing";
+  } catch (const Cancelled&) {
+    made.selection.cancelled = !is_over(task.options.deadline);
+    made.reason = kNoTime;
+  }
+  return made;
+}
+
 /// By the filter of options.predictor.
 PredictedSelection select_by_asked_filter(const SelectionTask& task, const Problem& problem,
                                           const DiagnosisProgress& progress) {
@@ -262,13 +294,14 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
   }
   std::string note;
   const Problem problem = simulated_problem(experiment, options, note);
-  const bool is_ranked = options.method == SearchMethod::ranked && !asked;
-  if (is_ranked || !fits_time_runs(experiment)) {
+  if (!fits_time_runs(experiment)) {
     PredictedSelection made = select_by_simulation(task, problem, progress);
-    made.reason = is_ranked ? "ranked search" : "";
+    made.reason = "";
     return made;
   }
-  const auto selected = !asked                                        ? select_by_both
+  const bool is_ranked = options.method == SearchMethod::ranked;
+  const auto selected = !asked && is_ranked                           ? select_by_ranks
+                        : !asked                                      ? select_by_both
                         : is_simulation(*asked)                       ? select_by_simulation
                         : *asked == PredictorKind::frequency_response ? select_by_asked_responses
                                                                       : select_by_asked_filter;

@@ -290,8 +290,8 @@ Command add_diagnose(CLI::App& program) {
   add_verbose(*parser, arguments->verbose,
               "Print evidence, residual analysis, NRMSE of each channel, formulations");
   add_time_limit(*parser, arguments->request.time_limit_s);
-  parser->add_option("--max-causes", arguments->request.most_causes, "The most causes to name")
-      ->capture_default_str();
+  parser->add_option("--max-causes", arguments->request.most_causes,
+                     "The most causes to name; default: as many as the data show");
   parser
       ->add_option(
           "--predictor", arguments->request.predictor,

@@ -50,8 +50,8 @@ Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& r
 }
 
 void require_valid(const DiagnosisRequest& request) {
-  if (request.most_causes < 1) {
-    throw arm::out_of_range(request.spelled("max-causes"), request.most_causes, "", "1 or more");
+  if (request.most_causes && *request.most_causes < 1) {
+    throw arm::out_of_range(request.spelled("max-causes"), *request.most_causes, "", "1 or more");
   }
   chosen_predictor(request);
   chosen_method(request);

@@ -18,9 +18,9 @@ struct DiagnosisRequest {
   std::vector<std::string> excluded = {};  ///< "sensor_gain", "sensor_gain on tip_acceleration"
   std::vector<std::string> accepted = {};  ///< data checks whose faults count as none
   std::optional<double> time_limit_s = {};
-  int most_causes = SelectionOptions{}.most_causes;
+  std::optional<int> most_causes = {};  ///< any number unless given
   std::string predictor = "auto";  ///< or a PredictorKind
-  std::string search = "staged";   ///< or "ranked" (SearchMethod)
+  std::string search = "ranked";   ///< or "staged" (SearchMethod)
   arm::OptionSpelling spelled = arm::on_command_line;
 };
 

@@ -54,7 +54,7 @@ struct RunOverlay {
 
 Diagnosed diagnose_measurement(const py::object& measurement, const Texts& effects,
                                const Texts& exclude, const Texts& accept,
-                               std::optional<double> time_limit_s, int max_causes,
+                               std::optional<double> time_limit_s, std::optional<int> max_causes,
                                const std::string& predictor, const py::object& progress) {
   const auto begun = std::chrono::steady_clock::now();
   const diagnose::DiagnosisRequest request{.effects = effects,
@@ -273,8 +273,8 @@ void add_diagnosis(py::module_& module) {
   module.def("diagnose", &diagnose_measurement, py::arg("measurement"), py::kw_only(),
              py::arg("effects") = Texts{}, py::arg("exclude") = Texts{},
              py::arg("accept") = Texts{}, py::arg("time_limit_s") = py::none(),
-             py::arg("max_causes") = diagnose::SelectionOptions{}.most_causes,
-             py::arg("predictor") = "auto", py::arg("progress") = py::none(),
+             py::arg("max_causes") = py::none(), py::arg("predictor") = "auto",
+             py::arg("progress") = py::none(),
              "Names the causes of the differences between the simulation of an arm and its "
              "measured data, as `flexarm diagnose` does: Diagnosis. Ctrl-C ends it.\n\n"
              "Arguments:\n"
@@ -283,7 +283,7 @@ void add_diagnosis(py::module_& module) {
              "  exclude: effects that are not tested, 'NAME' or 'NAME on SENSOR', a list\n"
              "  accept: data checks whose faults count as none, a list of their names\n"
              "  time_limit_s: time after which the search ends [s] (None: no limit)\n"
-             "  max_causes: most causes that are named together\n"
+             "  max_causes: most causes that are named together (None: as many as the data show)\n"
              "  predictor: how time runs are predicted, 'auto' or a name of docs/diagnosis.md "
              "('auto')\n"
              "  progress: a callable of the fraction done, None for a line on a terminal or in a "

@@ -35,7 +35,9 @@ Problem part_of(const Problem& whole, std::size_t samples, int most_modes) {
   Observations observations = observe(*part);
   take_noise(whole, *part, observations);
   const int modes = std::min(most_modes, whole.predictor().flexible_modes());
-  return {std::move(part), std::move(observations), {.flexible_modes = modes}};
+  return {std::move(part),
+          std::move(observations),
+          {.flexible_modes = modes, .deadline = whole.predictor().deadline()}};
 }
 
 }  // namespace

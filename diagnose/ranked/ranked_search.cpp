@@ -87,17 +87,18 @@ class Rung {
   }
 
   /// Returns fits of the most likely swaps of a set whose score is `near` that of the set on these
-  /// data, or lower. For each effect the kRivalsOfOne that are predicted to be best are tried, of
-  /// one family one, whatever is predicted: near noise the prediction, which is linear, is too high
-  /// by much.
+  /// data, or lower; of the empty set those of the most likely effects. For each effect the
+  /// kRivalsOfOne that are predicted to be best are tried, of one family one, whatever is
+  /// predicted: near noise the prediction, which is linear, is too high by much.
   std::vector<RankedFit> rivals(const Candidate& set) {
     const RankedFit base = fitted(set);
     if (!base.is_possible()) return {};
+    const bool is_empty = set.effects.empty();
     std::vector<Move> swaps = moves_from(base);
     std::map<std::size_t, std::set<effects::Family>> met;
     std::erase_if(swaps, [&](const Move& one) {
-      if (!one.dropped || one.added == nullptr) return true;
-      auto& families = met[*one.dropped];
+      if (one.added == nullptr || one.dropped.has_value() == is_empty) return true;
+      auto& families = met[one.dropped.value_or(0)];
       return families.size() == kRivalsOfOne || !families.insert(one.added->entry->family).second;
     });
     std::vector<RankedFit> made(swaps.size());
@@ -105,7 +106,8 @@ class Rung {
       made[i] = ranked_fit(likelihood_, swaps[i].of(base.candidate), work_, kLook, &base);
     });
     std::erase_if(made, [&](const RankedFit& one) {
-      return one.score > base.score + options_.near || !can_be_timed(one.candidate);
+      const bool is_near = is_empty || one.score <= base.score + options_.near;
+      return !is_near || !can_be_timed(one.candidate);
     });
     return made;
   }
@@ -163,7 +165,9 @@ class Rung {
     std::vector<Move> moves = moves_from(base);
     std::size_t looks = 0;
     std::set<Labels> new_sets;
+    const bool is_full = base.candidate.effects.size() >= options_.most_effects;
     std::erase_if(moves, [&](const Move& one) {
+      if (is_full && one.added != nullptr && !one.dropped) return true;
       const bool is_broad = kind == Looks::broad && one.added != nullptr && !one.dropped &&
                             one.added->parameters.size() > 1;
       if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
@@ -292,7 +296,8 @@ RankedSets ranked_search(const Likelihood& likelihood, const std::vector<Hypothe
     }
     work.tell("effects on all data", 0.5);
     climb(likelihood, width, Climb::to_the_end);
-    if (beam.front().candidate.effects.empty()) return {std::move(beam)};
+    const RankedFit& best = beam.front();
+    if (best.candidate.effects.empty() && leaves_noise(likelihood, best)) return {std::move(beam)};
     work.tell("rivals of the effects that were found", 0.8);
     if (options.rungs[1] < longest) {
       const PartOfData part(problem, options.rungs[1], options.coarse_modes);

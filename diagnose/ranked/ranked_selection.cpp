@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -60,9 +62,12 @@ Explanation explained(const Problem& problem, const RankedFit& made, bool has_de
 
 /// Returns the sets of a problem whose noise is as the best of them shows it: where the data alone
 /// show a higher level, at which a search ended too early, it is made again.
-RankedSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses, ReportedWork& work) {
+RankedSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
+                  const SelectionOptions& options, ReportedWork& work) {
+  RankedOptions ranked;
+  if (options.most_causes) ranked.most_effects = static_cast<std::size_t>(*options.most_causes);
   const Likelihood likelihood(problem, problem.estimation_runs());
-  RankedSets sets = ranked_search(likelihood, hypotheses, {}, work);
+  RankedSets sets = ranked_search(likelihood, hypotheses, ranked, work);
   const RankedFit& best = sets.best.front();
   if (!sets.is_complete || !best.is_possible() || !likelihood.is_noise(best.lines)) return sets;
   Problem lowered = problem;
@@ -71,7 +76,7 @@ RankedSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses, R
   const auto lines = in_lower_noise.lines_of(best.candidate);
   if (!lines || in_lower_noise.is_noise(*lines)) return sets;
   problem = lowered;
-  return ranked_search(in_lower_noise, hypotheses, {}, work);
+  return ranked_search(in_lower_noise, hypotheses, ranked, work);
 }
 
 /// Returns the set without its effects on timing, which a jitter of the torque looks like.
@@ -91,7 +96,7 @@ void search_with_timing(Selection& made, RankedSets& sets,
   auto timed = with_timing(made.problem, without_timing(best), options);
   if (!timed) timed = with_timing(made.problem, best, options);
   if (!timed) return;
-  RankedSets again = search(timed->problem, hypotheses, work);
+  RankedSets again = search(timed->problem, hypotheses, options, work);
   const Candidate& found = again.best.front().candidate;
   Problem lowered = timed->problem;
   lowered.lower_noise(found);
@@ -117,46 +122,41 @@ void see_noise(Problem& problem, RankedFit& best, const RankedFit& filed, Report
   }
 }
 
-/// Throws Cancelled where the work is cancelled, but not after its deadline.
-void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
-            ReportedWork& work, Selection& made) {
-  constexpr const char* kStage = "ranked search";
-  RankedSets sets = search(made.problem, hypotheses, work);
-  if (!sets.is_complete) made.end = SearchEnd{kStage, {}};
-  std::vector<RankedFit> without;
-  try {
-    if (sets.is_complete) search_with_timing(made, sets, hypotheses, options, work);
-  } catch (const Cancelled&) {
-    if (!work.is_out_of_time()) throw;
-    made.end = SearchEnd{kStage, {}};
+/// Takes the arm as filed where that leaves noise, at the level of noise that it shows. Returns
+/// whether it does: there is nothing to search for.
+bool is_adequate(Selection& made) {
+  Problem lowered = made.problem;
+  const Candidate filed = lowered.as_filed();
+  lowered.lower_noise(filed);
+  const Explanation explanation = explain(lowered, fit(lowered, filed, {.most_steps = 0}));
+  if (!explanation.leaves_noise()) return false;
+  made.problem = lowered.until({});
+  made.nothing = made.chosen = explanation;
+  return true;
+}
+
+/// Returns the labels of the effects that a set has not.
+std::vector<std::string> labels_beside(const RankedFit& set,
+                                       const std::vector<Hypothesis>& hypotheses) {
+  const std::set<std::string> own = set.candidate.labels();
+  std::vector<std::string> made;
+  for (const Hypothesis& one : hypotheses) {
+    if (!own.contains(one.label())) made.push_back(one.label());
   }
-  const Problem searched = made.problem;
-  const Likelihood likelihood(searched, searched.estimation_runs());
-  RankedFit& best = sets.best.front();
-  RankedFit filed;
-  try {
-    filed = ranked_fit(likelihood, searched.as_filed(), work);
-    see_noise(made.problem, best, filed, work);
-    const Likelihood held_out(searched, searched.validation_runs());
-    without = drop_by_validation(likelihood, held_out, best, work);
-    made.evidence = evidence_for_each(held_out, best, without, work);
-  } catch (const Cancelled&) {
-    if (!work.is_out_of_time()) throw;
-    made.end = SearchEnd{kStage, {}};
-  }
-  work.lift_deadline();
-  if (!filed.is_possible()) filed = ranked_fit(likelihood, searched.as_filed(), work);
-  const Problem& problem = made.problem;
-  made.nothing = explained(problem, filed, true);
-  made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best, true);
+  return made;
+}
+
+/// Keeps what was fitted: `sets`, the best first, and the best without each of its effects.
+void keep_sets(Selection& made, const std::vector<RankedFit>& sets,
+               const std::vector<RankedFit>& without) {
   const auto explained_near = [&](const RankedFit& one) {
-    return explained(problem, one, one.score < best.score + kReported);
+    return explained(made.problem, one, one.score < sets.front().score + kReported);
   };
   const auto is_kept = [&](const Candidate& set) {
     auto& kept = made.sets_like(set);
     return set.effects.empty() || find_set(kept, set) != kept.end();
   };
-  for (const RankedFit& one : sets.best) {
+  for (const RankedFit& one : sets) {
     if (is_kept(one.candidate)) continue;
     made.sets_like(one.candidate).push_back(explained_near(one));
   }
@@ -169,6 +169,61 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   sort_by_fit(made.combinations);
 }
 
+/// Throws Cancelled where the work is cancelled, and where not even the arm as filed was simulated
+/// by options.last; else not after the deadline of the work.
+void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
+            ReportedWork& work, Selection& made) {
+  constexpr const char* kStage = "ranked search";
+  made.problem = made.problem.until(options.last);
+  if (is_adequate(made)) return;
+  made.problem = made.problem.until(options.deadline);
+  RankedSets sets;
+  RankedFit filed;
+  std::vector<RankedFit> without;
+  const auto in_time = [&](const auto& step) {
+    try {
+      step();
+    } catch (const Cancelled&) {
+      if (!work.is_out_of_time()) throw;
+      made.end = SearchEnd{kStage, {}};
+    }
+  };
+  in_time([&] {
+    sets = search(made.problem, hypotheses, options, work);
+    if (sets.is_complete) search_with_timing(made, sets, hypotheses, options, work);
+  });
+  if (sets.best.empty()) {
+    sets.best.push_back({.candidate = made.problem.as_filed()});
+    sets.is_complete = false;
+  }
+  RankedFit& best = sets.best.front();
+  if (!sets.is_complete) made.end = SearchEnd{kStage, labels_beside(best, hypotheses)};
+  in_time([&] {
+    const Problem searched = made.problem;
+    const Likelihood likelihood(searched, searched.estimation_runs());
+    filed = ranked_fit(likelihood, searched.as_filed(), work);
+    see_noise(made.problem, best, filed, work);
+    const Likelihood held_out(searched, searched.validation_runs());
+    without = drop_by_validation(likelihood, held_out, best, work);
+    made.evidence = evidence_for_each(held_out, best, without, work);
+  });
+  work.lift_deadline();
+  made.problem = made.problem.until({});
+  if (!filed.is_possible()) {
+    const Likelihood likelihood(made.problem, made.problem.estimation_runs());
+    filed = ranked_fit(likelihood, made.problem.as_filed(), work);
+  }
+  const Problem& problem = made.problem;
+  made.nothing = explained(problem, filed, true);
+  made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best, true);
+  if (made.chosen.leaves_noise() && !best.candidate.effects.empty()) {
+    // In noise of known level least squares are more exact than the likelihood of the search.
+    made.chosen = explain(problem, fit(problem, best.candidate, {.work = &work}));
+    made.chosen.score = best.score;
+  }
+  keep_sets(made, sets.best, without);
+}
+
 }  // namespace
 
 Selection ranked_selection(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
@@ -179,6 +234,7 @@ Selection ranked_selection(const Problem& problem, const std::vector<Hypothesis>
   try {
     select(hypotheses, options, work, made);
   } catch (const Cancelled&) {
+    require_time(options.last);
     made.cancelled = true;
   }
   return made;

@@ -279,7 +279,7 @@ class Search {
   }
 
   bool has_room_beside(std::size_t causes) const {
-    return static_cast<int>(causes) < options_.most_causes;
+    return static_cast<int>(causes) < options_.most_causes.value_or(4);
   }
 
   bool is_worth_another(const Explanation& fuller, const Explanation& simpler) const {

@@ -81,8 +81,9 @@ struct SetGrowth {
 /// Every threshold of the search, each with what it enforces.
 struct SelectionOptions {
   SearchMethod method = SearchMethod::staged;
-  /// Causes named <= this: three of the arm, and one of its recording.
-  int most_causes = 4;
+  /// Causes named <= this; any number unless given, by the staged search four: three of the arm,
+  /// and one of its recording.
+  std::optional<int> most_causes = {};
   /// Chosen by evidence (predictor_choice.hpp) unless given.
   std::optional<PredictorKind> predictor = {};
   /// Another one is taken where what output error leaves is a disturbance of the hub torque >=

@@ -976,7 +976,7 @@ def diagnose(
     exclude: Sequence[str] = [],
     accept: Sequence[str] = [],
     time_limit_s: float | None = None,
-    max_causes: int = 4,
+    max_causes: int | None = None,
     predictor: str = 'auto',
     progress: _Progress = None,
 ) -> Diagnosis: ...

@@ -67,7 +67,7 @@ TEST_F(Diagnose, NamesTheCauseAndWritesAnArmThatOtherCommandsAccept) {
                            "payload_mass,time_delay,hub_inertia", "--out", "out"});
   ASSERT_EQ(ended.status, 0) << ended.errors;
   EXPECT_EQ(ended.errors, "");
-  EXPECT_THAT(ended.output, HasSubstr("Explained by payload_mass"));
+  EXPECT_THAT(ended.output, HasSubstr("Explained: payload_mass"));
   EXPECT_THAT(ended.output, HasSubstr("is used for validation, the others for estimation"));
   EXPECT_THAT(names_in("out"),
               IsSupersetOf({"causes.csv", "channels.csv", "diagnosis.json", "extended.toml"}));

@@ -115,7 +115,7 @@ TEST_F(StatedLaw, IsACandidateOfADiagnosis) {
                             "k = { range = [0.05, 50], unit = \"N m/rad\" }\nslack = 0.05\n");
   const std::string output = output_of({"diagnose", "sim/measurement.toml", "--effects",
                                         "my_cable,hub_spring,payload_mass", "--out", "out"});
-  EXPECT_THAT(output, HasSubstr("xplained by my_cable"));
+  EXPECT_THAT(output, HasSubstr("xplained: my_cable"));
   const Json json = Json::parse(text_of("out/diagnosis.json"));
   ASSERT_EQ(json["causes"].size(), 1U);
   EXPECT_EQ(json["causes"][0]["effect"], "my_cable");
@@ -134,7 +134,7 @@ TEST_F(StatedLaw, WithAValueAndARangeIsNoPartOfTheBaselineOfADiagnosis) {
   const std::string output = output_of(
       {"diagnose", "sim/measurement.toml", "--effects", "my_cable,payload_mass", "--out", "out"});
   EXPECT_THAT(output, HasSubstr("effects.my_cable has a range: it is tested as a hypothesis"));
-  EXPECT_THAT(output, HasSubstr("Explained by payload_mass"));
+  EXPECT_THAT(output, HasSubstr("Explained: payload_mass"));
   EXPECT_THAT(text_of("out/extended.toml"), HasSubstr("k = { range = [0.1, 100.0] }\n"));
 }
 

@@ -185,7 +185,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
       step();
     } catch (const Cancelled&) {
       if (!work.is_out_of_time()) throw;
-      made.end = SearchEnd{kStage, {}};
+      if (!made.end) made.end = SearchEnd{kStage, {}};
     }
   };
   in_time([&] {
@@ -196,7 +196,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     sets.best.push_back({.candidate = made.problem.as_filed()});
     sets.is_complete = false;
   }
-  RankedFit& best = sets.best.front();
+  RankedFit best = sets.best.front();
   if (!sets.is_complete) made.end = SearchEnd{kStage, labels_beside(best, hypotheses)};
   in_time([&] {
     const Problem searched = made.problem;
@@ -221,6 +221,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     made.chosen = explain(problem, fit(problem, best.candidate, {.work = &work}));
     made.chosen.score = best.score;
   }
+  sets.best.insert(sets.best.begin(), best);
   keep_sets(made, sets.best, without);
 }
 

@@ -4,6 +4,7 @@
 #include "diagnose/ranked/evidence_of_fit.hpp"
 #include "diagnose/ranked/nuisances.hpp"
 #include "diagnose/ranked/ranked_search.hpp"
+#include "diagnose/search/rivals.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -223,6 +224,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   }
   sets.best.insert(sets.best.begin(), best);
   keep_sets(made, sets.best, without);
+  made.rivals = indistinguishable_sets(made, posterior_of(made, options));
 }
 
 }  // namespace

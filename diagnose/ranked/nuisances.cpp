@@ -1,5 +1,6 @@
 #include "diagnose/ranked/nuisances.hpp"
 
+#include "diagnose/ranked/part_of_data.hpp"
 #include "diagnose/search/channel_independence.hpp"
 #include "diagnose/search/dependence_test.hpp"
 #include "diagnose/search/explanation.hpp"
@@ -20,7 +21,9 @@ Explanation evaluated(const Problem& problem, const Candidate& set, bool has_der
 
 std::optional<TimedProblem> with_timing(const Problem& problem, const Candidate& set,
                                         const SelectionOptions& options) {
-  if (!problem.is_driven_by_torque()) return std::nullopt;
+  if (!problem.is_driven_by_torque() || longest_run(problem.experiment()) == 0) {
+    return std::nullopt;
+  }
   const Explanation recorded = evaluated(problem, set, true);
   const bool is_small = recorded.estimation.unexplained_error() <= options.largest_timing_error;
   if (recorded.leaves_noise() || !is_small) return std::nullopt;

@@ -123,17 +123,16 @@ void see_noise(Problem& problem, RankedFit& best, const RankedFit& filed, Report
   }
 }
 
-/// Takes the arm as filed where that leaves noise, at the level of noise that it shows. Returns
-/// whether it does: there is nothing to search for.
+/// Takes the arm as filed for the result, at the level of noise that it shows. Returns whether it
+/// leaves noise: there is nothing to search for.
 bool is_adequate(Selection& made) {
   Problem lowered = made.problem;
   const Candidate filed = lowered.as_filed();
   lowered.lower_noise(filed);
-  const Explanation explanation = explain(lowered, fit(lowered, filed, {.most_steps = 0}));
-  if (!explanation.leaves_noise()) return false;
+  made.nothing = explain(lowered, fit(lowered, filed, {.most_steps = 0}));
+  made.chosen = made.nothing;
   made.problem = lowered.until({});
-  made.nothing = made.chosen = explanation;
-  return true;
+  return made.nothing.leaves_noise();
 }
 
 /// Returns the labels of the effects that a set has not.
@@ -175,9 +174,11 @@ void keep_sets(Selection& made, const std::vector<RankedFit>& sets,
 void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
             ReportedWork& work, Selection& made) {
   constexpr const char* kStage = "ranked search";
-  made.problem = made.problem.until(options.last);
+  const Problem recorded = made.problem;
+  made.problem = recorded.until(options.last);
   if (is_adequate(made)) return;
-  made.problem = made.problem.until(options.deadline);
+  const Problem of_filed = made.problem;
+  made.problem = recorded.until(options.deadline);
   RankedSets sets;
   RankedFit filed;
   std::vector<RankedFit> without;
@@ -209,6 +210,10 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     made.evidence = evidence_for_each(held_out, best, without, work);
   });
   work.lift_deadline();
+  if (!filed.is_possible() && best.candidate.effects.empty()) {
+    made.problem = of_filed;
+    return;
+  }
   made.problem = made.problem.until({});
   if (!filed.is_possible()) {
     const Likelihood likelihood(made.problem, made.problem.estimation_runs());

@@ -23,13 +23,6 @@ namespace {
 /// Of those that were not named, as many are told.
 constexpr std::size_t kNearMisses = 5;
 
-/// A candidate as it is, not fitted.
-Fit evaluated(const Problem& problem, const Candidate& candidate) {
-  return {.candidate = candidate,
-          .residuals = residuals_or_impossible(problem, candidate),
-          .converged = true};
-}
-
 std::vector<ChannelGain> channel_gains(const Problem& problem, const Eigen::VectorXd& before,
                                        const Eigen::VectorXd& after) {
   std::vector<ChannelGain> gains;

@@ -7,7 +7,7 @@
 
 namespace flexarm::diagnose {
 
-/// How well the data show an effect (grade_of, docs/ranked-search.md).
+/// Grades how well the data show an effect (grade_of, docs/ranked-search.md).
 enum class Grade { candidate, supported, established };
 
 /// Returns "candidate", "supported", "established".

@@ -86,6 +86,12 @@ arm::Arm arm_in(const Experiment& experiment, const measured::Run& run) {
   return arm;
 }
 
+bool has_runs(const Experiment& experiment, measured::Purpose purpose, measured::RunKind kind) {
+  return std::ranges::any_of(experiment.runs, [&](const auto& run) {
+    return run.run.purpose == purpose && run.run.kind == kind;
+  });
+}
+
 bool has_controllers(const Experiment& experiment) {
   return std::ranges::any_of(experiment.runs,
                              [](const auto& run) { return run.run.controller.has_value(); });

@@ -36,6 +36,9 @@ struct Experiment {
 /// The arm of a run: with the run's payload in place of its own where it has one.
 arm::Arm arm_in(const Experiment& experiment, const measured::Run& run);
 
+/// Returns whether a run is of this kind and for this purpose.
+bool has_runs(const Experiment& experiment, measured::Purpose purpose, measured::RunKind kind);
+
 /// Whether any run states the controller that made its torque; and the experiment with none that
 /// does: its torque is then what was recorded.
 bool has_controllers(const Experiment& experiment);

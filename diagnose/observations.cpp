@@ -213,6 +213,13 @@ Observations observe(const Experiment& experiment) {
   return all.observations();
 }
 
+const measured::FrequencyChannel& response_of(const measured::FrequencyRecord& record,
+                                              const ObservedChannel& channel) {
+  return *std::ranges::find_if(record.channels, [&](const measured::FrequencyChannel& one) {
+    return arm::to_string(one.sensor) == channel.sensor;
+  });
+}
+
 std::vector<std::complex<double>> response_of_parts(const std::vector<double>& parts) {
   std::vector<std::complex<double>> response;
   for (std::size_t k = 0; k + 1 < parts.size(); k += 2) {

@@ -102,6 +102,10 @@ std::vector<ModalGroup> modal_groups(const measured::ModalTable& table);
 /// diagnose/noise_floor.hpp.
 Observations observe(const Experiment& experiment);
 
+/// Returns the measured response of a channel of an `frf` run, `record`.
+const measured::FrequencyChannel& response_of(const measured::FrequencyRecord& record,
+                                              const ObservedChannel& channel);
+
 /// The response whose real and imaginary parts these are, frequency by frequency.
 std::vector<std::complex<double>> response_of_parts(const std::vector<double>& parts);
 

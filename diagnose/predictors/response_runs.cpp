@@ -50,12 +50,6 @@ std::optional<measured::MeasuredRun> as_response(const measured::Run& run,
                                measured::to_frequency_record(estimate)};
 }
 
-bool has(const Experiment& experiment, Purpose purpose, measured::RunKind kind) {
-  return std::ranges::any_of(experiment.runs, [&](const auto& run) {
-    return run.run.purpose == purpose && run.run.kind == kind;
-  });
-}
-
 }  // namespace
 
 std::optional<Experiment> as_responses(const Experiment& experiment) {
@@ -69,9 +63,10 @@ std::optional<Experiment> as_responses(const Experiment& experiment) {
       made.runs.push_back(*std::move(response));
     }
   }
-  if (!has(made, Purpose::estimation, measured::RunKind::frf)) return std::nullopt;
-  const bool loses_validation = has(experiment, Purpose::validation, measured::RunKind::time) &&
-                                !has(made, Purpose::validation, measured::RunKind::frf);
+  if (!has_runs(made, Purpose::estimation, measured::RunKind::frf)) return std::nullopt;
+  const bool loses_validation =
+      has_runs(experiment, Purpose::validation, measured::RunKind::time) &&
+      !has_runs(made, Purpose::validation, measured::RunKind::frf);
   if (loses_validation) return std::nullopt;
   return made;
 }

@@ -30,6 +30,9 @@ constexpr double kTotalChance = 2.5;
 /// The factor to which the simulation's own error is known: it is that of the arm as filed.
 constexpr double kErrorKnown = 10.0;
 
+/// Flexible modes beyond those that are needed, by which the truncation of a simulation is judged.
+constexpr int kFurtherModes = 4;
+
 /// The orthonormal DCT-II of one length, by one Fourier transform of the even samples followed by
 /// the odd ones in reverse [Makhoul1980].
 class CosineTransform {
@@ -94,7 +97,7 @@ void bridge(const std::vector<std::size_t>& left_out, Eigen::Ref<VectorXd> value
   }
 }
 
-/// The first line of each octave, from the highest one down.
+/// Returns the first line of each octave, from the highest one down.
 std::vector<Index> octaves(Index lines) {
   std::vector<Index> firsts;
   Index end = lines;
@@ -106,8 +109,8 @@ std::vector<Index> octaves(Index lines) {
   return firsts;
 }
 
-/// The first number of each octave of a channel of a response, from the highest one down: two
-/// numbers, real and imaginary part, a line.
+/// Returns the first number of each octave of a channel of a response, from the highest one down.
+/// A line has two numbers, real and imaginary part.
 std::vector<Index> octaves(const std::vector<double>& frequencies_Hz) {
   std::vector<Index> firsts;
   auto end = std::ssize(frequencies_Hz);
@@ -155,11 +158,8 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
     if (!runs_[channel.run]) continue;
     const auto& data = problem.experiment().runs[channel.run].data;
     if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
-      const auto own = std::ranges::find_if(record->channels, [&](const auto& one) {
-        return arm::to_string(one.sensor) == channel.sensor;
-      });
       Index end = channel.count;
-      for (const Index first : octaves(own->frequency_Hz)) {
+      for (const Index first : octaves(response_of(*record, channel).frequency_Hz)) {
         bands_.push_back({channel.first + first, end - first, 0.0, true});
         end = first;
       }

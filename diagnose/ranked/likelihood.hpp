@@ -39,12 +39,11 @@ class Likelihood {
   static constexpr double kDiscrepancy = 3e-3;
   /// The largest effective sample size of an octave of a channel.
   static constexpr double kSampleSize = 8.0;
-  /// Flexible modes beyond those that are needed, by which the truncation is judged.
-  static constexpr int kFurtherModes = 4;
 
   /// Takes the `runs` of the problem, which must outlive the object.
   Likelihood(const Problem& problem, std::vector<bool> runs);
-  /// The same of a problem that has fewer flexible modes than the ones that are needed.
+  /// Takes a problem with fewer flexible modes than the `flexible_modes` that are needed: the
+  /// truncation is judged by those.
   Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes);
 
   const Problem& problem() const { return problem_; }

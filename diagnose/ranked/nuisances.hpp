@@ -1,6 +1,5 @@
 #pragma once
 
-#include "diagnose/ranked/likelihood.hpp"
 #include "diagnose/search/problem.hpp"
 #include "diagnose/search/reported_work.hpp"
 #include "diagnose/search/selection_options.hpp"
@@ -10,8 +9,8 @@
 
 namespace flexarm::diagnose {
 
-// What a recording adds to the residuals of a set of effects, and is no effect: each is known from
-// the residuals of a set, and gives a problem with it.
+// Nuisances are what a recording adds to residuals, and no effects. Each function takes one from
+// the residuals of a set of effects, and returns a problem with it.
 
 /// A problem with corrected torques.
 struct TimedProblem {

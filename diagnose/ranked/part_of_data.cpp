@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <memory>
-#include <string>
 #include <utility>
-#include <variant>
 
 namespace flexarm::diagnose {
 
@@ -45,16 +43,5 @@ Problem part_of(const Problem& whole, std::size_t samples, int most_modes) {
 PartOfData::PartOfData(const Problem& whole, std::size_t samples, int most_modes)
     : problem_(part_of(whole, samples, most_modes)),
       likelihood_(problem_, problem_.estimation_runs(), whole.predictor().flexible_modes()) {}
-
-std::size_t longest_run(const Experiment& experiment) {
-  std::size_t longest = 0;
-  for (const auto& [run, data] : experiment.runs) {
-    if (run.purpose != measured::Purpose::estimation) continue;
-    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
-      longest = std::max(longest, record->time_s.size());
-    }
-  }
-  return longest;
-}
 
 }  // namespace flexarm::diagnose

@@ -29,7 +29,4 @@ class PartOfData {
   Likelihood likelihood_;
 };
 
-/// Returns the number of samples of the longest `time` run for estimation; 0 without any.
-std::size_t longest_run(const Experiment& experiment);
-
 }  // namespace flexarm::diagnose

@@ -68,12 +68,13 @@ class Rung {
     if (!beam.front().is_possible()) return;
     for (const RankedFit& one : beam) meet(one);
     keep_best(beam, width);
-    const auto widest = [&] { return is_noise(beam.front()) ? Looks::predicted : first_looks; };
+    const auto is_noise = [&] { return leaves_noise(likelihood_, beam.front()); };
+    const auto widest = [&] { return is_noise() ? Looks::predicted : first_looks; };
     for (Looks looks = widest(); !is_over(beam.front());) {
       const double before = beam.front().score;
       std::vector<RankedFit> neighbours;
       for (const RankedFit& base : beam) {
-        if (&base != &beam.front() && is_noise(beam.front())) break;
+        if (&base != &beam.front() && is_noise()) break;
         if (!expanded_.insert({base.candidate.labels(), looks}).second) continue;
         std::ranges::move(neighbours_of(base, looks), std::back_inserter(neighbours));
       }
@@ -131,9 +132,9 @@ class Rung {
   }
 
  private:
-  bool is_over(const RankedFit& best) const { return end_ == Climb::to_noise && is_noise(best); }
-
-  bool is_noise(const RankedFit& set) const { return leaves_noise(likelihood_, set); }
+  bool is_over(const RankedFit& best) const {
+    return end_ == Climb::to_noise && leaves_noise(likelihood_, best);
+  }
 
   /// Keeps the fits of the lowest score, of `most` sets of effects and so many of one set.
   static void keep_best(std::vector<RankedFit>& fits, std::size_t most, std::size_t of_one = 1) {
@@ -173,9 +174,8 @@ class Rung {
       if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
       const Labels labels = one.of(base.candidate).labels();
       const auto met = met_.find(labels);
-      if (met == met_.end()) {
-        new_sets.insert(labels);
-      } else if (one.added == nullptr && one.score < met->second - options_.worth) {
+      const bool is_smaller = one.added == nullptr;
+      if (met == met_.end() || (is_smaller && one.score < met->second - options_.worth)) {
         new_sets.insert(labels);
       }
       if (!new_sets.contains(labels)) return true;
@@ -244,6 +244,18 @@ void add_rivals(const Likelihood& likelihood, const Likelihood& part,
   std::ranges::move(fits, std::back_inserter(beam));
   std::ranges::stable_sort(beam, {}, &RankedFit::score);
   beam.front() = ranked_fit(likelihood, beam.front().candidate, work);
+}
+
+/// Returns the number of samples of the longest `time` run for estimation; 0 without any.
+std::size_t longest_run(const Experiment& experiment) {
+  std::size_t longest = 0;
+  for (const auto& [run, data] : experiment.runs) {
+    if (run.purpose != measured::Purpose::estimation) continue;
+    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
+      longest = std::max(longest, record->time_s.size());
+    }
+  }
+  return longest;
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct RankedOptions {
 /// The sets of effects that a search ends with.
 struct RankedSets {
   /// The best first; those behind it are the others of the last beam, and rivals: the best with one
-  /// effect exchanged for another, one of a family.
+  /// effect exchanged for another, one of a family; where the best has no effects, single ones.
   std::vector<RankedFit> best = {};
   bool is_complete = true;  ///< fitted to all estimation runs
 };
@@ -43,9 +43,9 @@ struct RankedSets {
 ///
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
-/// - a rung on which the beam does not leave noise is climbed from the arm as filed with the
-///   `common` effects alone (effects::Likely), the first such one with all effects too; the best of
-///   what these and the rung below found goes on;
+/// - a rung on which the beam does not leave noise is climbed from the arm as filed too: the first
+///   such one with all effects, and each with the `common` effects alone (effects::Likely), unless
+///   one effect by itself left noise; the best of what these and the rung below found goes on;
 /// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
 /// - the next rung has a part of the effects, those that do best and those of the families of the
 ///   set.

@@ -94,14 +94,16 @@ void search_with_timing(Selection& made, RankedSets& sets,
                         const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
                         ReportedWork& work) {
   const Candidate& best = sets.best.front().candidate;
-  auto timed = with_timing(made.problem, without_timing(best), options);
-  if (!timed) timed = with_timing(made.problem, best, options);
+  const Candidate untimed = without_timing(best);
+  auto timed = with_timing(made.problem, untimed, options);
+  const bool has_timing = untimed.effects.size() < best.effects.size();
+  if (!timed && has_timing) timed = with_timing(made.problem, best, options);
   if (!timed) return;
   RankedSets again = search(timed->problem, hypotheses, options, work);
   const Candidate& found = again.best.front().candidate;
   Problem lowered = timed->problem;
   lowered.lower_noise(found);
-  if (explain(lowered, fit(lowered, found, {.most_steps = 0})).leaves_noise()) {
+  if (explain(lowered, evaluated(lowered, found)).leaves_noise()) {
     made.problem = timed->problem;
     made.timing = std::move(timed->timing);
     sets = std::move(again);
@@ -114,12 +116,12 @@ void search_with_timing(Selection& made, RankedSets& sets,
 /// filed leaves noise of some colour, that is the best set.
 void see_noise(Problem& problem, RankedFit& best, const RankedFit& filed, ReportedWork& work) {
   problem.lower_noise(best.candidate);
-  for (const RankedFit* set : {&filed, static_cast<const RankedFit*>(&best)}) {
-    auto coloured = with_noise_colour(problem, set->candidate, work);
-    if (!coloured) continue;
+  if (auto coloured = with_noise_colour(problem, filed.candidate, work)) {
     problem = *std::move(coloured);
-    if (set == &filed) best = filed;
-    return;
+    best = filed;
+  } else if (!best.candidate.effects.empty()) {
+    coloured = with_noise_colour(problem, best.candidate, work);
+    if (coloured) problem = *std::move(coloured);
   }
 }
 
@@ -169,8 +171,9 @@ void keep_sets(Selection& made, const std::vector<RankedFit>& sets,
   sort_by_fit(made.combinations);
 }
 
-/// Throws Cancelled where the work is cancelled, and where not even the arm as filed was simulated
-/// by options.last; else not after the deadline of the work.
+/// Selects effects for `made`, of which the problem is given. After the deadline of the work that
+/// is the best so far. Throws Cancelled where the work is cancelled otherwise, and where not even
+/// the arm as filed was simulated by options.last.
 void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
             ReportedWork& work, Selection& made) {
   constexpr const char* kStage = "ranked search";
@@ -223,7 +226,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   made.nothing = explained(problem, filed, true);
   made.chosen = best.candidate.effects.empty() ? made.nothing : explained(problem, best, true);
   if (made.chosen.leaves_noise() && !best.candidate.effects.empty()) {
-    // In noise of known level least squares are more exact than the likelihood of the search.
+    // Least squares are more exact than the likelihood of the search, which estimates the noise.
     made.chosen = explain(problem, fit(problem, best.candidate, {.work = &work}));
     made.chosen.score = best.score;
   }

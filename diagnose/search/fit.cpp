@@ -13,6 +13,12 @@ Eigen::VectorXd residuals_or_impossible(const Problem& problem, const Candidate&
   return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
 }
 
+Fit evaluated(const Problem& problem, const Candidate& candidate) {
+  return {.candidate = candidate,
+          .residuals = residuals_or_impossible(problem, candidate),
+          .converged = true};
+}
+
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
   Fit made{.candidate = start};
   const auto residuals_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {

@@ -35,6 +35,9 @@ struct FitOptions {
 /// Of the estimation runs; all kImpossibleResidual where the candidate's arm cannot be computed.
 Eigen::VectorXd residuals_or_impossible(const Problem& problem, const Candidate& candidate);
 
+/// Returns the candidate as it is, not fitted, without derivatives.
+Fit evaluated(const Problem& problem, const Candidate& candidate);
+
 /// From the candidate's own values to the nearest minimum (Levenberg-Marquardt). A candidate
 /// without effects is evaluated. Throws Cancelled where the work is cancelled.
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options = {});

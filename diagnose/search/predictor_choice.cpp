@@ -25,13 +25,6 @@ constexpr double kSimulationTime = 0.75;
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
 
-bool fits_time_runs(const Experiment& experiment) {
-  return std::ranges::any_of(experiment.runs, [](const auto& run) {
-    return run.run.purpose == measured::Purpose::estimation &&
-           run.run.kind == measured::RunKind::time;
-  });
-}
-
 /// Of one whose controllers are stated, with the loop if it can be simulated with the arm file.
 /// Else, and by output error where that is asked for, from the recorded torque; `note` says why.
 Problem simulated_problem(const Experiment& experiment, const SelectionOptions& options,
@@ -110,18 +103,10 @@ PredictedSelection without_torque_noise(PredictedSelection noisy, const Selectio
   return exact;
 }
 
-/// Where `made` by simulation does not leave noise: with refitted numbers, by responses or by a
-/// filter. Throws Cancelled after the deadline, with `made` as it was.
+/// Selects by responses or by a filter where `made` by simulation does not leave noise. Throws
+/// Cancelled after the deadline, with `made` as it was.
 PredictedSelection select_beyond_simulation(PredictedSelection& made, const SelectionTask& task,
-                                            const Problem& problem,
                                             const DiagnosisProgress& progress) {
-  // Refitted numbers do not bring a simulation near the data that no effect brings near.
-  const bool is_ranked = task.options.method == SearchMethod::ranked;
-  if (!is_ranked &&
-      !is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
-    auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
-    if (numbers) return *std::move(numbers);
-  }
   made.reason = "an unrecorded torque on the hub explains little of what it leaves";
   if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {
     if (responses->selection.cancelled) return *std::move(responses);
@@ -174,7 +159,7 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
 bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
   try {
     const Problem in_time = problem.until(deadline);
-    return explain(in_time, fit(in_time, in_time.as_filed(), {.most_steps = 0})).leaves_noise();
+    return explain(in_time, evaluated(in_time, in_time.as_filed())).leaves_noise();
   } catch (const Cancelled&) {
     return false;
   }
@@ -204,7 +189,12 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
   }
   try {
     require_time(task.options.deadline);
-    return select_beyond_simulation(made, task, problem, progress);
+    // Refitted numbers do not bring a simulation near the data that no effect brings near.
+    if (!is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
+      auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
+      if (numbers) return *std::move(numbers);
+    }
+    return select_beyond_simulation(made, task, progress);
   } catch (const Cancelled&) {
     made.selection.cancelled = !is_over(task.options.deadline);
     if (!made.selection.cancelled) {
@@ -215,9 +205,9 @@ PredictedSelection select_by_both(const SelectionTask& task, const Problem& prob
   return made;
 }
 
-/// By noise of the recorded torque where that leaves noise beside no effect, else by simulation
-/// with the ranked search; by noise of the torque again beside the effects that this names; and
-/// where it names none, by the other predictors.
+/// Selects with noise of the recorded torque where that leaves noise beside no effect, else by
+/// simulation with the ranked search. Where that does not leave noise, noise of the torque is tried
+/// beside the effects that it names, or, where it names none, the other predictors.
 PredictedSelection select_by_ranks(const SelectionTask& task, const Problem& problem,
                                    const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
@@ -235,7 +225,7 @@ PredictedSelection select_by_ranks(const SelectionTask& task, const Problem& pro
   const std::vector<Hypothesis> named = made.selection.chosen.fit.candidate.effects;
   try {
     require_time(task.options.deadline);
-    if (named.empty()) return select_beyond_simulation(made, task, problem, progress);
+    if (named.empty()) return select_beyond_simulation(made, task, progress);
     if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
     made.reason = "others are tried where a simulation names nothing";
   } catch (const Cancelled&) {
@@ -294,14 +284,13 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
   }
   std::string note;
   const Problem problem = simulated_problem(experiment, options, note);
-  if (!fits_time_runs(experiment)) {
+  if (!has_runs(experiment, measured::Purpose::estimation, measured::RunKind::time)) {
     PredictedSelection made = select_by_simulation(task, problem, progress);
     made.reason = "";
     return made;
   }
-  const bool is_ranked = options.method == SearchMethod::ranked;
-  const auto selected = !asked && is_ranked                           ? select_by_ranks
-                        : !asked                                      ? select_by_both
+  const auto unasked = options.method == SearchMethod::ranked ? select_by_ranks : select_by_both;
+  const auto selected = !asked                                        ? unasked
                         : is_simulation(*asked)                       ? select_by_simulation
                         : *asked == PredictorKind::frequency_response ? select_by_asked_responses
                                                                       : select_by_asked_filter;

@@ -75,9 +75,7 @@ Problem::Problem(const Experiment& experiment, Observations observations,
 }
 
 Problem::Problem(std::shared_ptr<const Experiment> experiment, const ProblemOptions& options)
-    : Problem(*experiment, options) {
-  own_experiment_ = std::move(experiment);
-}
+    : Problem(experiment, observe(*experiment), options) {}
 
 Problem::Problem(std::shared_ptr<const Experiment> experiment, Observations observations,
                  const ProblemOptions& options)

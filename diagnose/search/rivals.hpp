@@ -34,11 +34,11 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
 /// Rivals of odds <= this are indistinguishable from the cause.
 inline constexpr double kIndistinguishableOdds = 20.0;
 
-/// Of the sets that were fitted: no cause, singles, combinations, the chosen one. Not those that
-/// leave no noise and have an effect of `selection.inconsistent`. Where the chosen one leaves
-/// noise, not those with a general effect in place of its limit there that do not clear the bars
-/// over it: they are the chosen one with a parameter that is not needed. All of them, by their
-/// scores, where the sets have scores.
+/// Returns the posterior of the sets that were fitted: no cause, singles, combinations, the chosen
+/// one. Where these have scores, it is of all of them, by their scores. Otherwise it leaves out
+/// sets that leave no noise and have an effect of `selection.inconsistent`. Where the chosen one
+/// leaves noise, it also leaves out sets with a general effect in place of its limit there that do
+/// not clear the bars over it: they are the chosen one with a parameter that is not needed.
 Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
 
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival

@@ -83,7 +83,9 @@ TorqueTiming torque_timing(const Problem& problem, const Fit& fit) {
   timing.late.resize(experiment.runs.size());
   const auto residuals =
       problem.residuals(fit.candidate, std::vector<bool>(experiment.runs.size(), true));
-  if (!residuals) return timing;
+  const bool is_timed =
+      has_runs(experiment, measured::Purpose::estimation, measured::RunKind::time);
+  if (!residuals || !is_timed) return timing;
   const arm::Arm arm = fit.candidate.extend(experiment.arm);
   std::vector<Eigen::MatrixXd> columns(experiment.runs.size());
   std::vector<Eigen::LDLT<Eigen::MatrixXd>> information(experiment.runs.size());

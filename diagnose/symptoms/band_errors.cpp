@@ -172,10 +172,7 @@ std::vector<BandError> band_errors(const SymptomsInput& input) {
     if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
       add_time(input, channel, *record, errors);
     } else if (const auto* responses = std::get_if<measured::FrequencyRecord>(&data)) {
-      const auto own = std::ranges::find_if(responses->channels, [&](const auto& one) {
-        return arm::to_string(one.sensor) == channel.sensor;
-      });
-      add_frequency(input, channel, *own, errors);
+      add_frequency(input, channel, response_of(*responses, channel), errors);
     }
   }
   return errors;

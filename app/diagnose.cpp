@@ -302,7 +302,6 @@ Command add_diagnose(CLI::App& program) {
           "torque and hub are not judged), frequency_response (responses estimated of the runs) or "
           "auto")
       ->capture_default_str();
-  parser->add_option("--search", arguments->request.search)->group("");
   add_output_choice(
       *parser, arguments->output,
       {.folder = "New folder for the extended arm, tables as CSV, figures and the JSON",

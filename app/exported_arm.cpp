@@ -18,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestDiagnosis_bytes = std::size_t{1} << 28U;
-constexpr const char* kSchema = "flexarm.diagnosis/2";
+/// The keys that are read are the same in both (docs/json.md).
+constexpr const char* kSchema = "flexarm.diagnosis/3";
+constexpr const char* kFormerSchema = "flexarm.diagnosis/2";
 
 arm::InputError not_a_diagnosis(const std::string& file, const std::string& why) {
   return arm::InputError(fmt::format(
@@ -44,7 +46,8 @@ ExportedArm read_exported_arm(const std::string& file) {
   const std::string text = measured::read_text_file(file, kLargestDiagnosis_bytes);
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded()) throw not_a_diagnosis(file, "is not JSON");
-  if (!json.is_object() || json.value("schema", "") != kSchema) {
+  const std::string schema = json.is_object() ? json.value("schema", "") : "";
+  if (schema != kSchema && schema != kFormerSchema) {
     throw not_a_diagnosis(file, fmt::format("schema is not {}", kSchema));
   }
   try {

@@ -53,19 +53,6 @@ void require_valid_uncertainties(const Arm& arm) {
   }
 }
 
-Arm with_assumed_uncertainties(const Arm& arm, double uncertainty) {
-  Arm made = arm;
-  const Beam& beam = arm.beam;
-  for (const char* name :
-       {beam.given_flexural_rigidity_N_m2 ? "beam.flexural_rigidity" : "beam.youngs_modulus",
-        beam.given_linear_density_kg_per_m ? "beam.linear_density" : "beam.density", "hub.inertia",
-        "payload.mass", "payload.inertia"}) {
-    const auto value = key_of(name).get(arm);
-    if (value && *value > 0.0) made.relative_uncertainties.try_emplace(name, uncertainty);
-  }
-  return made;
-}
-
 Arm with_deviations(const Arm& arm, std::span<const double> deviations) {
   Arm made = arm;
   if (deviations.empty()) return made;

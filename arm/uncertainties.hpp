@@ -15,11 +15,6 @@ inline constexpr std::string_view kUncertaintySuffix = "_uncertainty";
 /// number which the arm does not give, which is 0, or which another makes useless.
 void require_valid_uncertainties(const Arm& arm);
 
-/// The arm with this relative standard deviation for what decides its motion and states none, as far
-/// as given and above 0: rigidity and density of the beam, inertia of the hub, mass and inertia of
-/// the payload.
-Arm with_assumed_uncertainties(const Arm& arm, double uncertainty);
-
 /// The arm whose uncertain numbers, in the order of `Arm::relative_uncertainties`, are off by so
 /// many standard deviations: each is exp(uncertainty deviations) times what it was, which leaves it
 /// its sign. `deviations` has as many entries as these, or none.

@@ -41,7 +41,7 @@ struct Cause {
   /// The same of this effect or one of `confusable_with` in its place.
   double class_confidence = 0.0;
   std::string family;  ///< of effects, in words
-  /// The evidence and its grade; none by the staged search.
+  /// The evidence and its grade; none where the time limit left no time for it.
   std::optional<EffectEvidence> figures = {};
   Grade grade = Grade::candidate;
   double share = 0.0;  ///< explained of the excess residual without it, the others refitted

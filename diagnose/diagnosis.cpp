@@ -124,19 +124,6 @@ void say_noise(const Problem& problem, std::vector<std::string>& notices) {
       strongest->sensor, problem.experiment().runs[strongest->run].run.id));
 }
 
-void say_assumed_numbers(const arm::Arm& filed, const arm::Arm& searched,
-                         std::vector<std::string>& notices) {
-  std::vector<std::string> names;
-  for (const auto& [name, uncertainty] : searched.relative_uncertainties) {
-    if (!filed.relative_uncertainties.contains(name)) names.push_back(name);
-  }
-  if (names.empty()) return;
-  notices.push_back(fmt::format(
-      "no set of effects leaves noise with the numbers of the arm file: {} are refitted, each as "
-      "known to {:g} %; state their uncertainties",
-      fmt::join(names, ", "), 100.0 * searched.relative_uncertainties.at(names.front())));
-}
-
 std::optional<DisturbanceGain> disturbance_gain(const Selection& selection) {
   const auto& before = selection.nothing.estimation.disturbance;
   const auto& after = selection.chosen.estimation.disturbance;
@@ -184,7 +171,7 @@ struct JudgedSelection {
 
   JudgedSelection(const Selection& made, const SelectionOptions& options)
       : selection(made),
-        posterior(posterior_of(made, options)),
+        posterior(posterior_of(made)),
         errors(standard_errors(made.problem, made.chosen, options.further_modes)) {}
 
   const Candidate& chosen() const { return selection.chosen.fit.candidate; }
@@ -260,7 +247,6 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.notices = experiment.notices;
   made.accepted = experiment.accepted;
   made.search_end = selection.end;
-  made.ruled_out = selection.ruled_out;
   made.cancelled = selection.cancelled;
   if (made.cancelled) return made;
   made.predictor = predicted.predictor;
@@ -276,14 +262,12 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     nothing_else *= 1.0 - one.posterior.of_something_else();
   }
   made.something_else = 1.0 - nothing_else;
-  made.inconsistent = predicted.all_inconsistent();
   say_timing(experiment, selection, made.notices);
   if (is_by_motion) {
     made.notices.push_back(
         motion_notice(selection.problem.experiment(), selection.problem.observations()));
   }
   say_noise(predicted.simulated, made.notices);
-  say_assumed_numbers(experiment.arm, selection.problem.experiment().arm, made.notices);
   // What is left is judged by simulation, whichever predictor found the effects, but for noise of
   // the recorded torque: a simulation adds it up.
   const Problem& problem = predicted.simulated;
@@ -350,9 +334,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   in_time("the estimates of each run", [&] {
     const bool is_of_motion = judged.size() > 1 && judged.back().chosen().effects.empty();
     const JudgedSelection& leading = is_of_motion ? judged.front() : judged.back();
-    drift = made.causes.empty() && !made.inconsistent.empty()
-                ? made.inconsistent.front()
-                : drift_of(leading.selection, made.verdict, leading.causes(), last);
+    drift = drift_of(leading.selection, made.verdict, leading.causes(), last);
   });
   in_time("the symptoms", [&] {
     made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift), last);

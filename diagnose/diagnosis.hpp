@@ -93,13 +93,11 @@ struct Diagnosis {
   arm::Arm extended_arm;
   /// Where the residuals are not noise: the most probable sets that were not named.
   std::vector<NearMiss> near_misses;
-  std::vector<RunDrift> inconsistent = {};  ///< of effects that are not named for it
   std::vector<NextExperiment> next_experiments;  ///< what_next
   std::vector<std::string> notices;
   std::vector<std::string> excluded;      ///< effects that whoever asked left out of the search
   std::optional<double> time_limit_s;     ///< as asked for
   std::optional<SearchEnd> search_end;    ///< where the time limit ended the search
-  std::vector<RuledOut> ruled_out;        ///< effects that a look at a part of the data ruled out
   std::vector<AcceptedFinding> accepted;  ///< of the experiment
   bool cancelled = false;
 };

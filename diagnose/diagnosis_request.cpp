@@ -23,13 +23,6 @@ std::optional<PredictorKind> chosen_predictor(const DiagnosisRequest& request) {
                   request.spelled("predictor"), arm::shown(request.predictor)));
 }
 
-SearchMethod chosen_method(const DiagnosisRequest& request) {
-  if (request.search == "staged") return SearchMethod::staged;
-  if (request.search == "ranked") return SearchMethod::ranked;
-  throw arm::InputError(fmt::format("{} {}: must be staged or ranked", request.spelled("search"),
-                                    arm::shown(request.search)));
-}
-
 }  // namespace
 
 Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock::time_point begun) {
@@ -54,7 +47,6 @@ void require_valid(const DiagnosisRequest& request) {
     throw arm::out_of_range(request.spelled("max-causes"), *request.most_causes, "", "1 or more");
   }
   chosen_predictor(request);
-  chosen_method(request);
 }
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request,
@@ -66,7 +58,6 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request
   SelectionOptions options;
   options.most_causes = request.most_causes;
   options.predictor = chosen_predictor(request);
-  options.method = chosen_method(request);
   options.deadline = deadline;
   if (deadline) options.last = *deadline + kReportTime;
   Diagnosis diagnosis;

@@ -20,7 +20,6 @@ struct DiagnosisRequest {
   std::optional<double> time_limit_s = {};
   std::optional<int> most_causes = {};  ///< any number unless given
   std::string predictor = "auto";  ///< or a PredictorKind
-  std::string search = "ranked";   ///< or "staged" (SearchMethod)
   arm::OptionSpelling spelled = arm::on_command_line;
 };
 
@@ -32,7 +31,7 @@ Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock:
 Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request,
                          const Deadline& deadline = {});
 
-/// Throws InputError for a number of causes below 1, an unknown predictor and an unknown search.
+/// Throws InputError for a number of causes below 1 and an unknown predictor.
 void require_valid(const DiagnosisRequest& request);
 
 /// The diagnosis that is asked for. Throws InputError as `require_valid`, for an effect that is

@@ -7,7 +7,7 @@
 
 namespace flexarm::diagnose {
 
-/// Grades how well the data show an effect (grade_of, docs/ranked-search.md).
+/// Grades how well the data show an effect (grade_of, docs/effect-search.md).
 enum class Grade { candidate, supported, established };
 
 /// Returns "candidate", "supported", "established".
@@ -23,7 +23,7 @@ struct RunEstimate {
 /// The losses by leaving an effect out of a set, the others refitted to the estimation runs, and
 /// its estimates in each run.
 struct EffectEvidence {
-  double score = 0.0;                     ///< of the search (ranked_fit.hpp)
+  double score = 0.0;                     ///< of the search (scored_fit.hpp)
   double estimation = 0.0;                ///< of -2 ln L on the estimation runs
   std::optional<double> held_out = {};    ///< the same on the validation runs, if there are any
   double error_without = 0.0;             ///< NRMSE of the validation runs, else of all runs

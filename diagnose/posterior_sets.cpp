@@ -107,7 +107,7 @@ std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
                                          const SelectionOptions& options,
                                          const Deadline& deadline) {
   const Selection& selection = predicted.selection;
-  const Posterior posterior = posterior_of(selection, options);
+  const Posterior posterior = posterior_of(selection);
   std::vector<PosteriorSet> sets;
   std::set<std::set<std::string>> seen;
   const auto add = [&](const Explanation& explanation, double probability) {

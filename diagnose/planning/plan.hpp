@@ -37,7 +37,9 @@ struct Plan {
 };
 
 struct PlanOptions {
-  double least_information_gain = SelectionOptions{}.least_information_gain;
+  /// An effect counts as detected from this delta BIC on (misfit.hpp); 10 is very strong evidence
+  /// [KassRaftery1995].
+  double least_information_gain = 10.0;
   std::size_t most_added = 3;
   /// Effects whose size is not known: fitted in any case, and no causes.
   std::vector<std::string> unknown = {};

@@ -62,16 +62,6 @@ Experiment coarse(const Experiment& experiment, std::size_t samples) {
   return made;
 }
 
-Experiment coarse_whole(const Experiment& experiment, std::size_t samples) {
-  Experiment made = decimated_whole(estimation_part(experiment), samples);
-  for (auto& [run, data] : made.runs) {
-    if (run.kind != measured::RunKind::time) {
-      std::visit([&](auto& other) { thin(other, samples); }, data);
-    }
-  }
-  return made;
-}
-
 Experiment decimated_whole(Experiment experiment, std::size_t samples) {
   for (auto& [run, data] : experiment.runs) {
     auto* record = std::get_if<measured::TimeRecord>(&data);

@@ -10,12 +10,10 @@ namespace flexarm::diagnose {
 /// `time` runs the first `samples`, whose simulation goes less out of step with another frequency;
 /// of `frf` runs every few lines; `modal` runs as they are.
 Experiment coarse(const Experiment& experiment, std::size_t samples);
-/// The same for a Kalman filter, which follows the data: `time` runs whole, decimated to about
-/// `samples` (measured::decimated) where they are long enough for it.
-Experiment coarse_whole(const Experiment& experiment, std::size_t samples);
 inline constexpr std::size_t kCoarseLines = 100;
 
-/// The experiment with longer `time` runs decimated like that.
+/// Returns the experiment with its `time` runs whole, decimated to about `samples`
+/// (measured::decimated) where they are long enough for it.
 Experiment decimated_whole(Experiment experiment, std::size_t samples);
 
 }  // namespace flexarm::diagnose

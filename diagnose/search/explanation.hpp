@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -18,8 +17,8 @@ struct Explanation {
   Misfit estimation;         ///< nuisances included
   Misfit validation;         ///< count 0 without validation runs
   ResidualTest estimation_test;
-  ResidualTest validation_test;      ///< passed without validation runs
-  std::optional<double> score = {};  ///< by the ranked search (ranked/ranked_fit.hpp)
+  ResidualTest validation_test;  ///< passed without validation runs
+  double score = 0.0;            ///< of the search (scored_fit.hpp)
 
   /// The residuals of both kinds of runs pass as noise (residual_test.hpp).
   bool leaves_noise() const { return estimation_test.is_noise() && validation_test.is_noise(); }

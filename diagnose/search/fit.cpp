@@ -30,15 +30,13 @@ Fit fit(const Problem& problem, const Candidate& start, const FitOptions& option
   LeastSquares found = least_squares(residuals_at, start.coordinates(),
                                      {.most_steps = options.most_steps,
                                       .tolerance = options.tolerance,
-                                      .is_differenced_at_end = options.is_differenced_at_end,
-                                      .highest_minimum = options.highest_minimum});
+                                      .is_differenced_at_end = options.is_differenced_at_end});
   made.candidate.put(found.places);
   made.sum_of_squares = found.residuals.squaredNorm();
   made.residuals = std::move(found.residuals);
   made.jacobian = std::move(found.jacobian);
   made.evaluations = found.evaluations;
   made.converged = found.converged;
-  made.is_out_of_reach = found.is_out_of_reach;
   return made;
 }
 

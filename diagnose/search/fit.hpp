@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include <limits>
-
 namespace flexarm::diagnose {
 
 /// A candidate refitted to the estimation runs by least squares of its simulation (output) error.
@@ -18,7 +16,6 @@ struct Fit {
   Eigen::MatrixXd jacobian = {};
   int evaluations = 0;  ///< of the model
   bool converged = false;
-  bool is_out_of_reach = false;  ///< ended at FitOptions::highest_minimum
 };
 
 struct FitOptions {
@@ -26,9 +23,8 @@ struct FitOptions {
   /// Converged where a step lowers the sum of squares by less than this part of it, or moves no
   /// place by more than this.
   double tolerance = 1e-7;
-  // As in LeastSquaresOptions.
+  /// As in LeastSquaresOptions.
   bool is_differenced_at_end = true;
-  double highest_minimum = std::numeric_limits<double>::infinity();
   const ReportedWork* work = nullptr;  ///< that the fit is part of; asked before each evaluation
 };
 

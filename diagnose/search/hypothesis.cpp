@@ -209,15 +209,6 @@ std::vector<Hypothesis> distinct(std::vector<Hypothesis> all) {
   return made;
 }
 
-std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
-                                         const std::vector<Hypothesis>& all) {
-  std::vector<const Hypothesis*> limits;
-  for (const Hypothesis& other : all) {
-    if (effect.contains(other.effect)) limits.push_back(&other);
-  }
-  return limits;
-}
-
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
                   std::span<const double> values) {
   arm::Arm made = arm;

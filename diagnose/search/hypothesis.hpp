@@ -61,10 +61,6 @@ std::vector<Hypothesis> without(std::vector<Hypothesis> all,
 /// `other_names`.
 std::vector<Hypothesis> distinct(std::vector<Hypothesis> all);
 
-/// Those of `all` that the effect becomes at a limit of its parameters.
-std::vector<const Hypothesis*> limits_of(const Hypothesis& effect,
-                                         const std::vector<Hypothesis>& all);
-
 /// The arm with the effect at these values, one a parameter; it is no hypothesis of that arm.
 arm::Arm extended(const arm::Arm& arm, const Hypothesis& hypothesis,
                   std::span<const double> values);

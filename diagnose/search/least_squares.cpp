@@ -28,9 +28,6 @@ constexpr double kPredicted = 0.3;
 constexpr double kBeyondExpected = 1.5;
 /// It is lengthened to at most so many times.
 constexpr double kMostTimes = 1024.0;
-/// The minimum is no further below than this times what a Jacobian leads to, near it.
-constexpr double kMostBeyond = 4.0;
-
 /// Part of the sum of squares that a Gauss-Newton step takes away.
 double explained(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& jacobian) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> factors(jacobian);
@@ -112,13 +109,6 @@ class DifferencedResiduals {
 
   /// The last Jacobian is no quotient of differences.
   bool is_updated() const { return jacobian_ && jacobian_->is_updated; }
-  /// By the last Jacobian, where it was formed, the minimum is above that.
-  bool is_minimum_above(double sum_of_squares) const {
-    if (!std::isfinite(sum_of_squares)) return false;
-    const Eigen::VectorXd& residuals = jacobian_->at.residuals;
-    return residuals.squaredNorm() - kMostBeyond * explained(residuals, jacobian_->values) >
-           sum_of_squares;
-  }
   /// A step by an updated Jacobian led up.
   bool was_misled() const { return !updates_; }
 
@@ -197,21 +187,16 @@ LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& 
   minimiser.parameters.ftol = options.tolerance;
   minimiser.parameters.xtol = options.tolerance;
   int steps = 0;
-  constexpr int kAgreeing = 2;
-  int above = 0;  // Jacobians, one after the other, whose minimum is out of reach
   while (start.size() > 0) {
     auto ended = minimiser.minimizeInit(made.places);
     while ((ended == status::Running || ended == status::NotStarted) &&
-           steps < options.most_steps && above < kAgreeing) {
+           steps < options.most_steps) {
       ++steps;
       ended = minimiser.minimizeOneStep(made.places);
       if (ended == status::Running && differenced.go_further(made.places)) {
         ended = minimiser.minimizeInit(made.places);
       }
-      above = differenced.is_minimum_above(options.highest_minimum) ? above + 1 : 0;
     }
-    made.is_out_of_reach = above == kAgreeing;
-    if (made.is_out_of_reach) break;
     made.converged = ended != status::Running && ended != status::ImproperInputParameters;
     if (!differenced.is_updated()) break;
     if (!options.is_differenced_at_end && !differenced.was_misled()) break;
@@ -221,7 +206,7 @@ LeastSquares least_squares(const ResidualsAt& residuals, const Eigen::VectorXd& 
     if (made.converged || steps == options.most_steps) break;
   }
   made.residuals = differenced.residuals(made.places);
-  if (options.is_differenced_at_end && !made.is_out_of_reach) {
+  if (options.is_differenced_at_end) {
     made.jacobian = differenced.differenced(made.places);
   } else {
     differenced.df(made.places, made.jacobian);

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include <functional>
-#include <limits>
 
 namespace flexarm::diagnose {
 
@@ -15,9 +14,6 @@ struct LeastSquaresOptions {
   /// The minimum and the Jacobian there are checked by difference quotients. Without, they are as
   /// the updates have them: a look.
   bool is_differenced_at_end = true;
-  /// The search ends where the minimum is above this: where two Jacobians, one step after the
-  /// other, lead to less than a quarter of the decrease that is wanting.
-  double highest_minimum = std::numeric_limits<double>::infinity();
 };
 
 struct LeastSquares {
@@ -26,7 +22,6 @@ struct LeastSquares {
   Eigen::MatrixXd jacobian = {};   ///< there, residuals by places
   int evaluations = 0;             ///< of the residuals
   bool converged = false;
-  bool is_out_of_reach = false;  ///< LeastSquaresOptions::highest_minimum
 };
 
 /// As many residuals at each place; at one that is impossible all `kImpossibleResidual`.

@@ -28,14 +28,6 @@ namespace {
 /// output error is wrong by more than the modes beyond.
 constexpr int kMostFilteredModes = 6;
 
-/// Relative standard deviation of a number that states none, where it is refitted: that of a
-/// catalogue's density, or of an inertia from a drawing.
-constexpr double kAssumedUncertainty = 0.1;
-/// Of a search beside refitted numbers, of which only what leaves noise is reported
-/// (SelectionOptions::largest_of_pairs). In four blind trials of three effects the best two left
-/// 1.4 to 7.1; in recordings of rigs that no set explains, 115 to 4100.
-constexpr double kLargestOfPairs = 15.0;
-
 bool shows_hub(const measured::TimeRecord& record) {
   return std::ranges::any_of(
       record.channels, [](const auto& channel) { return arm::is_collocated(channel.sensor); });
@@ -120,22 +112,6 @@ Candidate PredictedSelection::whole(Candidate candidate) const {
   return made;
 }
 
-std::vector<RunDrift> PredictedSelection::all_inconsistent() const {
-  const Candidate named = whole(selection.chosen.fit.candidate);
-  std::vector<RunDrift> made;
-  const auto add = [&](const std::vector<RunDrift>& drifts) {
-    for (const RunDrift& drift : drifts) {
-      const bool is_known = std::ranges::any_of(
-          made, [&](const RunDrift& one) { return one.effect == drift.effect; });
-      if (!is_known && !named.has_effect(drift.effect)) made.push_back(drift);
-    }
-  };
-  add(inconsistent);
-  if (by_motion) add(by_motion->inconsistent);
-  add(selection.inconsistent);
-  return made;
-}
-
 std::optional<EmpiricalLaw> PredictedSelection::law_beside_causes(const Deadline& deadline) const {
   if (law) return law->found;
   return empirical_law(balance.value().until(deadline), simulated.until(deadline),
@@ -159,23 +135,6 @@ PredictedSelection select_by_simulation(const SelectionTask& task, const Problem
           .predictor = kind,
           .reason = "as asked for",
           .simulated = simulated};
-}
-
-std::optional<PredictedSelection> select_with_assumed_numbers(const SelectionTask& task,
-                                                              const Problem& problem,
-                                                              const DiagnosisProgress& progress) {
-  auto assumed = std::make_shared<Experiment>(problem.experiment());
-  assumed->arm = arm::with_assumed_uncertainties(assumed->arm, kAssumedUncertainty);
-  if (assumed->arm == problem.experiment().arm) return std::nullopt;
-  SelectionOptions options = task.options;
-  options.deadline = halfway(options.deadline);
-  options.largest_of_pairs = kLargestOfPairs;
-  PredictedSelection made = select_by_simulation(
-      {task.hypotheses, options},
-      Problem(assumed, {.flexible_modes = problem.predictor().flexible_modes()}), progress);
-  if (!made.selection.cancelled && !made.selection.chosen.leaves_noise()) return std::nullopt;
-  made.reason = "its residuals are noise if numbers of the arm file are refitted";
-  return made;
 }
 
 PredictedSelection select_by_motion(const SelectionTask& task, const Experiment& experiment,

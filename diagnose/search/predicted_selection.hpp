@@ -30,9 +30,6 @@ struct PredictedSelection {
   /// By simulation, the noise of its channels as the selection by simulation left it: what
   /// simulations are compared with the data by.
   Problem simulated;
-  /// Of effects that simulation did not name for it, where `selection` is by another predictor.
-  std::vector<RunDrift> inconsistent = {};
-
   /// A candidate of `selection` with the effects of `by_motion`: one of the experiment's arm.
   Candidate whole(Candidate candidate) const;
   /// With the noise of the recorded torques as the whole disturbance: the residuals of the filter,
@@ -41,8 +38,6 @@ struct PredictedSelection {
     const auto& noise = selection.problem.predictor().noise();
     return noise && noise->is_torque_noise();
   }
-  /// Of `selection`, of `by_motion` and by simulation: of effects that none of them has.
-  std::vector<RunDrift> all_inconsistent() const;
   /// Neither `selection` nor `by_motion` has a cause.
   bool names_nothing() const { return whole(selection.chosen.fit.candidate).effects.empty(); }
   /// `law`, or now. `balance` must have been formed.
@@ -69,13 +64,6 @@ inline constexpr const char* kNoiseStage = "the noise of a Kalman filter";
 /// the motion of its runs.
 PredictedSelection select_by_simulation(const SelectionTask& task, const Problem& problem,
                                         const DiagnosisProgress& progress);
-
-/// Where effects do not leave noise: what numbers of the arm file that state no uncertainty explain
-/// if they are as uncertain as those of a data sheet, by themselves or beside effects, in half of
-/// the time. Empty where that does not leave noise either.
-std::optional<PredictedSelection> select_with_assumed_numbers(const SelectionTask& task,
-                                                              const Problem& problem,
-                                                              const DiagnosisProgress& progress);
 
 /// Of what acts on beam, payload and sensors, by the measured motion of the hub. Throws InputError
 /// where that is not the input of every run (driven_by_motion).

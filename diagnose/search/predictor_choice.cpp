@@ -2,7 +2,6 @@
 
 #include "arm/input_error.hpp"
 #include "diagnose/predictors/response_runs.hpp"
-#include "diagnose/search/admission.hpp"
 
 #include <fmt/format.h>
 
@@ -18,9 +17,6 @@ namespace {
 
 /// A simulation that errs less than this more than another is about as good.
 constexpr double kAbout = 1.05;
-
-/// Three effects are found by simulation, and the search for them takes longest.
-constexpr double kSimulationTime = 0.75;
 
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
@@ -89,20 +85,6 @@ double error_by_filter(const PredictedSelection& made) {
   return made.law && made.law->found ? made.law->found->error_after : simulated_error(made);
 }
 
-/// `noisy` names effects beside noise of the recorded torque, which takes up what others would: by
-/// simulation in half of the time, where that leaves the sensors' own noise.
-PredictedSelection without_torque_noise(PredictedSelection noisy, const SelectionTask& task,
-                                        const Problem& problem, const DiagnosisProgress& progress) {
-  SelectionOptions options = task.options;
-  options.deadline = halfway(options.deadline);
-  PredictedSelection exact = select_by_simulation({task.hypotheses, options}, problem, progress);
-  const Selection& found = exact.selection;
-  if (found.cancelled) return exact;
-  if (!found.chosen.leaves_noise() || found.problem.has_coloured_noise()) return noisy;
-  exact.reason = "its residuals are noise";
-  return exact;
-}
-
 /// Selects by responses or by a filter where `made` by simulation does not leave noise. Throws
 /// Cancelled after the deadline, with `made` as it was.
 PredictedSelection select_beyond_simulation(PredictedSelection& made, const SelectionTask& task,
@@ -111,7 +93,6 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
   if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {
     if (responses->selection.cancelled) return *std::move(responses);
     if (responses_are_better(*responses, made, task.options.deadline)) {
-      responses->inconsistent = made.selection.inconsistent;
       responses->reason = fmt::format(
           "their residuals have {:.3g} times the standard deviation of their noise; those of a "
           "simulation have {:.3g} times that of theirs",
@@ -135,7 +116,6 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
     const double by_filter = error_by_filter(*filtered);
     const double by_simulation = simulated_error(made);
     if (other.cancelled || by_filter <= by_simulation) {
-      filtered->inconsistent = made.selection.inconsistent;
       if (!other.end) other.end = made.selection.end;
       return *std::move(filtered);
     }
@@ -165,50 +145,10 @@ bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
   }
 }
 
-/// By simulation, and where that does not leave noise by a filter; the first of them in
-/// kSimulationTime of the time. Nothing is asked of the noise of the torque where the arm as filed
-/// leaves noise without it.
-PredictedSelection select_by_both(const SelectionTask& task, const Problem& problem,
-                                  const DiagnosisProgress& progress) {
-  std::optional<PredictedSelection> noisy;
-  if (!is_adequate(problem, task.options.deadline)) {
-    noisy = select_with_torque_noise(task, problem, part_of(progress, 0.0, 0.5));
-  }
-  if (noisy) {
-    if (noisy->selection.cancelled || noisy->names_nothing()) return *std::move(noisy);
-    return without_torque_noise(*std::move(noisy), task, problem, part_of(progress, 0.5, 1.0));
-  }
-  SelectionOptions first = task.options;
-  first.deadline = after_part(task.options.deadline, kSimulationTime);
-  PredictedSelection made =
-      select_by_simulation({task.hypotheses, first}, problem, part_of(progress, 0.0, 0.5));
-  if (made.selection.cancelled) return made;
-  if (made.selection.chosen.leaves_noise()) {
-    made.reason = "its residuals are noise";
-    return made;
-  }
-  try {
-    require_time(task.options.deadline);
-    // Refitted numbers do not bring a simulation near the data that no effect brings near.
-    if (!is_out_of_reach(made.selection.nothing, made.selection.singles, task.options)) {
-      auto numbers = select_with_assumed_numbers(task, problem, part_of(progress, 0.5, 0.6));
-      if (numbers) return *std::move(numbers);
-    }
-    return select_beyond_simulation(made, task, progress);
-  } catch (const Cancelled&) {
-    made.selection.cancelled = !is_over(task.options.deadline);
-    if (!made.selection.cancelled) {
-      made.reason = kNoTime;
-      if (!made.selection.end) made.selection.end = SearchEnd{kNoiseStage, {}};
-    }
-  }
-  return made;
-}
-
 /// Selects with noise of the recorded torque where that leaves noise beside no effect, else by
-/// simulation with the ranked search. Where that does not leave noise, noise of the torque is tried
+/// simulation. Where that does not leave noise, noise of the torque is tried
 /// beside the effects that it names, or, where it names none, the other predictors.
-PredictedSelection select_by_ranks(const SelectionTask& task, const Problem& problem,
+PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
                                    const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
     return select_with_torque_noise({effects, task.options}, problem, part_of(progress, from, to));
@@ -289,8 +229,7 @@ PredictedSelection select_by_evidence(const Experiment& experiment,
     made.reason = "";
     return made;
   }
-  const auto unasked = options.method == SearchMethod::ranked ? select_by_ranks : select_by_both;
-  const auto selected = !asked                                        ? unasked
+  const auto selected = !asked                                        ? select_unasked
                         : is_simulation(*asked)                       ? select_by_simulation
                         : *asked == PredictorKind::frequency_response ? select_by_asked_responses
                                                                       : select_by_asked_filter;

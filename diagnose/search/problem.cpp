@@ -2,7 +2,6 @@
 
 #include "diagnose/noise_floor.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
-#include "diagnose/search/hub_laws.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -122,22 +121,7 @@ Predictor Problem::predictor_with(int flexible_modes,
   return {*experiment_, observations_, flexible_modes, noise, predictor_.deadline()};
 }
 
-HubLaws& Problem::hub_laws() const {
-  return laws_.of(*this);
-}
-
-HubLaws& Problem::KeptLaws::of(const Problem& problem) {
-  const std::scoped_lock lock(mutex_);
-  if (!laws_) laws_ = std::make_shared<HubLaws>(problem);
-  return *laws_;
-}
-
-void Problem::KeptLaws::forget() {
-  laws_.reset();
-}
-
 void Problem::replace_torques(Experiment experiment) {
-  laws_.forget();
   own_experiment_ = std::make_shared<const Experiment>(std::move(experiment));
   experiment_ = own_experiment_.get();
   predictor_ = predictor_with(predictor_.flexible_modes(), predictor_.noise());
@@ -163,7 +147,6 @@ bool Problem::lower_noise(const Candidate& candidate) {
     lowered.deviations.segment(channel.first, channel.count) *= channel.floor() / widened;
   }
   if (fell) {
-    laws_.forget();
     observations_ = std::move(lowered);
     predictor_ = predictor_with(predictor_.flexible_modes(), predictor_.noise());
   }

@@ -9,13 +9,10 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 namespace flexarm::diagnose {
-
-class HubLaws;
 
 struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
@@ -107,30 +104,9 @@ class Problem {
                                            const std::vector<bool>& runs) const;
   Eigen::Index residual_count() const;
 
-  /// Its laws of hub torque, made when they are first asked for. Concurrent calls are safe.
-  HubLaws& hub_laws() const;
-
  private:
   /// Of this experiment and these observations, with the predictor's deadline.
   Predictor predictor_with(int flexible_modes, const std::optional<NoiseModel>& noise) const;
-
-  /// Made of one problem: a copy makes its own.
-  class KeptLaws {
-   public:
-    KeptLaws() = default;
-    KeptLaws(const KeptLaws& /*other*/) {}
-    KeptLaws& operator=(const KeptLaws& /*other*/) {
-      forget();
-      return *this;
-    }
-
-    HubLaws& of(const Problem& problem);
-    void forget();
-
-   private:
-    std::mutex mutex_;
-    std::shared_ptr<HubLaws> laws_;
-  };
 
   const Experiment* experiment_;
   std::shared_ptr<const Experiment> own_experiment_;  // where it is not the caller's
@@ -138,7 +114,6 @@ class Problem {
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;
   Predictor predictor_;
-  mutable KeptLaws laws_;
 };
 
 }  // namespace flexarm::diagnose

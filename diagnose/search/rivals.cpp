@@ -1,7 +1,5 @@
 #include "diagnose/search/rivals.hpp"
 
-#include "diagnose/search/admission.hpp"
-
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -12,15 +10,6 @@ bool is_rival(const Candidate& one, const Candidate& other) {
   const auto shared = std::ranges::count_if(
       one.effects, [&](const Hypothesis& effect) { return other.has(effect); });
   return one.effects.size() == other.effects.size() && shared + 1 == std::ssize(one.effects);
-}
-
-bool has_limit_in_place(const Candidate& limited, const Candidate& general) {
-  if (!is_rival(limited, general)) return false;
-  const auto own = std::ranges::find_if_not(
-      general.effects, [&](const Hypothesis& effect) { return limited.has(effect); });
-  return std::ranges::any_of(limited.effects, [&](const Hypothesis& effect) {
-    return !general.has(effect) && own->contains(effect.effect);
-  });
 }
 
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
@@ -61,54 +50,19 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
   return found;
 }
 
-Posterior posterior_of(const Selection& selection, const SelectionOptions& options) {
+Posterior posterior_of(const Selection& selection) {
   std::vector<const Explanation*> sets = {&selection.nothing};
-  const auto is_new = [&sets](const Explanation& explanation) {
-    return std::ranges::none_of(sets, [&](const Explanation* set) {
+  const auto add = [&sets](const Explanation& explanation) {
+    const bool is_new = std::ranges::none_of(sets, [&](const Explanation* set) {
       return set->fit.candidate.labels() == explanation.fit.candidate.labels();
     });
+    if (is_new) sets.push_back(&explanation);
   };
-  const auto is_inconsistent = [&](const Explanation& explanation) {
-    return !explanation.leaves_noise() &&
-           std::ranges::any_of(selection.inconsistent, [&](const RunDrift& drift) {
-             return explanation.fit.candidate.has_effect(drift.effect);
-           });
-  };
-  const Explanation& chosen = selection.chosen;
-  const auto adds_nothing = [&](const Explanation& explanation) {
-    return chosen.leaves_noise() &&
-           has_limit_in_place(chosen.fit.candidate, explanation.fit.candidate) &&
-           !clears_bars(explanation, chosen, options);
-  };
-  const auto is_left_out = [&](const Explanation& explanation) {
-    return is_inconsistent(explanation) || adds_nothing(explanation) || !is_identified(explanation);
-  };
-  if (is_new(chosen)) sets.push_back(&chosen);
+  add(selection.chosen);
   for (const auto* found : {&selection.singles, &selection.combinations}) {
-    for (const Explanation& explanation : *found) {
-      if (!chosen.score && is_left_out(explanation)) continue;
-      if (is_new(explanation)) sets.push_back(&explanation);
-    }
+    std::ranges::for_each(*found, add);
   }
-  if (chosen.score) return Posterior(sets);
-  return {sets, selection.hypotheses, options};
-}
-
-std::optional<std::size_t> improbable_effect(const Selection& selection,
-                                             const SelectionOptions& options) {
-  const Candidate& candidate = selection.chosen.fit.candidate;
-  const Posterior posterior = posterior_of(selection, options);
-  double least = options.least_probability;
-  std::optional<std::size_t> improbable;
-  for (std::size_t i = 0; i < candidate.effects.size(); ++i) {
-    const Hypothesis& effect = candidate.effects[i];
-    const double probability =
-        class_probability(effect, rivals_of(effect, selection, posterior), posterior);
-    if (probability >= least) continue;
-    least = probability;
-    improbable = i;
-  }
-  return improbable;
+  return Posterior(sets);
 }
 
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,

@@ -19,9 +19,6 @@ struct Rival {
 /// One that has another effect in the place of one of the other's.
 bool is_rival(const Candidate& one, const Candidate& other);
 
-/// `limited` is `general` with a limit of one of its effects in place of that.
-bool has_limit_in_place(const Candidate& limited, const Candidate& general);
-
 /// The rivals of a cause among the sets that were fitted, the nearest first; one that has the cause
 /// as a limit is none. Pointers are into `selection`.
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
@@ -34,22 +31,14 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
 /// Rivals of odds <= this are indistinguishable from the cause.
 inline constexpr double kIndistinguishableOdds = 20.0;
 
-/// Returns the posterior of the sets that were fitted: no cause, singles, combinations, the chosen
-/// one. Where these have scores, it is of all of them, by their scores. Otherwise it leaves out
-/// sets that leave no noise and have an effect of `selection.inconsistent`. Where the chosen one
-/// leaves noise, it also leaves out sets with a general effect in place of its limit there that do
-/// not clear the bars over it: they are the chosen one with a parameter that is not needed.
-Posterior posterior_of(const Selection& selection, const SelectionOptions& options);
+/// Returns the posterior of the sets that were fitted: no cause, the chosen one, singles and
+/// combinations.
+Posterior posterior_of(const Selection& selection);
 
 /// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival
 /// that is better by more than kIndistinguishableOdds, which could not be named, says nothing for
 /// it.
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
                          const Posterior& posterior);
-
-/// The least probable of the chosen causes, with what stands in its place as well, if that is too
-/// improbable to be named.
-std::optional<std::size_t> improbable_effect(const Selection& selection,
-                                             const SelectionOptions& options);
 
 }  // namespace flexarm::diagnose

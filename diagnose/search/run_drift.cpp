@@ -1,10 +1,8 @@
 #include "diagnose/search/run_drift.hpp"
 
-#include "arm/linear_arm.hpp"
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/misfit.hpp"
 #include "measured/spectra/tail_probability.hpp"
-#include "response/formulation_maker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,15 +23,6 @@ constexpr double kLastChange = 0.003;
 /// From the value where the effect does nothing: that of a stiffness, infinity, is as 0 here.
 double size_of(const SearchedParameter& parameter, double value) {
   return std::abs(value - parameter.neutral.value_or(0.0));
-}
-
-bool changes_mass_or_stiffness(const Candidate& candidate, std::size_t effect,
-                               const arm::Arm& arm) {
-  const auto undamped = [](const arm::Arm& of) {
-    return arm::linear_arm(response::without_damping(of));
-  };
-  return undamped(extended(arm, candidate.effects[effect], candidate.values_of(effect))) !=
-         undamped(arm);
 }
 
 struct RunFit {
@@ -144,16 +133,6 @@ std::pair<RunValue, RunValue> RunDrift::range() const {
 double RunDrift::spread() const {
   const auto [least, most] = range();
   return (most.value - least.value) / size;
-}
-
-std::optional<RunDrift> inconsistent_estimates(const Problem& problem, const Candidate& candidate,
-                                               std::size_t effect) {
-  if (!changes_mass_or_stiffness(candidate, effect, problem.experiment().arm)) return std::nullopt;
-  auto drift = run_drift(problem, candidate, effect);
-  if (!drift || drift->probability >= kInconsistentLevel || drift->spread() < kMostSpread) {
-    return std::nullopt;
-  }
-  return drift;
 }
 
 }  // namespace flexarm::diagnose

@@ -43,16 +43,4 @@ struct RunDrift {
 std::optional<RunDrift> run_drift(const Problem& problem, const Candidate& candidate,
                                   std::size_t effect);
 
-/// Of an effect that changes mass, stiffness or geometry of the arm: its estimates from each run,
-/// if they are inconsistent. Their spread is then significant at `kInconsistentLevel`, and
-/// `kMostSpread` of its size or more. These numbers are the same in all runs, where friction,
-/// damping and what sensors and actuators do may change with temperature or wear. Of the blind
-/// trials in which the named effects did not leave noise and the leading one was of this kind, the
-/// spread was 0.14 to 1 of its size in the ten where it was not there, and below 0.001 in the two
-/// where it was.
-std::optional<RunDrift> inconsistent_estimates(const Problem& problem, const Candidate& candidate,
-                                               std::size_t effect);
-inline constexpr double kInconsistentLevel = 1e-3;
-inline constexpr double kMostSpread = 0.1;
-
 }  // namespace flexarm::diagnose

@@ -1,15 +1,13 @@
 #include "diagnose/search/set_search.hpp"
 
 #include "diagnose/parallel.hpp"
-#include "diagnose/search/additions.hpp"
-#include "diagnose/search/admission.hpp"
-#include "diagnose/search/misfit.hpp"
-#include "diagnose/search/rivals.hpp"
+#include "diagnose/search/moves.hpp"
+#include "diagnose/search/part_of_data.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,156 +16,314 @@ namespace flexarm::diagnose {
 
 namespace {
 
-std::vector<Candidate> best_of(const std::vector<Fit>& sets, std::size_t most) {
-  std::vector<Candidate> best;
-  for (std::size_t i = 0; i < std::min(most, sets.size()); ++i) best.push_back(sets[i].candidate);
-  return best;
+using Labels = std::set<std::string>;
+
+/// A fit that shows which of several starts are worth going on with, and one that goes on.
+constexpr ScoredFitOptions kFirstLook = {.most_steps = 3, .tolerance = 0.5, .takes_secants = true};
+constexpr ScoredFitOptions kLook = {.most_steps = 25, .tolerance = 0.5, .takes_secants = true};
+
+/// The moves of a set that are fitted: `predicted` are those that are predicted to lower the score
+/// most. `broad` ones also add every effect of several parameters, whether or not that is predicted
+/// to lower it: the prediction knows a few of their shapes, and a fit changes these. A climb takes
+/// them first, and where no predicted move lowers the score, unless the set leaves noise.
+enum class Looks { predicted, broad };
+
+/// Starts of one set that a fit goes on from after the first look.
+constexpr std::size_t kStartsOfOne = 3;
+
+/// Rivals of each effect of the final set that are fitted.
+constexpr std::size_t kRivalsOfOne = 2;
+
+/// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
+enum class Climb { to_noise, to_the_end };
+
+bool leaves_noise(const Likelihood& likelihood, const ScoredFit& set) {
+  return set.is_possible() && likelihood.is_noise(set.lines);
 }
 
-/// Of fits to the early part, which are sorted, those that the coarse part is to be asked for:
-/// where one leaves noise, those that do.
-std::vector<Candidate> looks_of(const std::vector<Fit>& early, std::size_t most) {
-  const auto noise = std::ranges::find_if_not(early, is_near_noise) - early.begin();
-  return best_of(early, noise > 0 ? std::min(most, static_cast<std::size_t>(noise)) : most);
+/// One climb on a rung of the ladder, which has a part of the data, or all.
+class Rung {
+ public:
+  Rung(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
+       const SetSearchOptions& options, const ReportedWork& work, Climb end)
+      : likelihood_(likelihood),
+        least_time_s_(options.least_time *
+                      scales_of(likelihood.problem().experiment()).shortest_time_s),
+        hypotheses_(hypotheses),
+        options_(options),
+        work_(work),
+        end_(end) {}
+
+  /// Fits the sets of the beam to these data, or the arm as filed where none can be; the best
+  /// first.
+  void fit(std::vector<ScoredFit>& beam) {
+    in_parallel(beam.size(), [&](std::size_t i) { beam[i] = fitted(beam[i].candidate); });
+    std::erase_if(beam, [](const ScoredFit& one) { return !one.is_possible(); });
+    if (beam.empty()) beam.push_back(fitted(likelihood_.problem().as_filed()));
+    keep_best(beam, beam.size());
+  }
+
+  /// Replaces fitted sets of the beam by neighbours while the best score falls.
+  void climb(std::vector<ScoredFit>& beam, std::size_t width, Looks first_looks) {
+    if (!beam.front().is_possible()) return;
+    for (const ScoredFit& one : beam) meet(one);
+    keep_best(beam, width);
+    const auto is_noise = [&] { return leaves_noise(likelihood_, beam.front()); };
+    const auto widest = [&] { return is_noise() ? Looks::predicted : first_looks; };
+    for (Looks looks = widest(); !is_over(beam.front());) {
+      const double before = beam.front().score;
+      std::vector<ScoredFit> neighbours;
+      for (const ScoredFit& base : beam) {
+        if (&base != &beam.front() && is_noise()) break;
+        if (!expanded_.insert({base.candidate.labels(), looks}).second) continue;
+        std::ranges::move(neighbours_of(base, looks), std::back_inserter(neighbours));
+      }
+      std::ranges::move(neighbours, std::back_inserter(beam));
+      keep_best(beam, width);
+      const bool falls = beam.front().score < before;
+      if (!falls && looks == widest()) break;
+      looks = falls ? Looks::predicted : widest();
+    }
+    beam.front() = fitted(beam.front().candidate);
+  }
+
+  /// Returns fits of the most likely swaps of a set whose score is `near` that of the set on these
+  /// data, or lower; of the empty set those of the most likely effects. For each effect the
+  /// kRivalsOfOne that are predicted to be best are tried, of one family one, whatever is
+  /// predicted: near noise the prediction, which is linear, is too high by much.
+  std::vector<ScoredFit> rivals(const Candidate& set) {
+    const ScoredFit base = fitted(set);
+    if (!base.is_possible()) return {};
+    const bool is_empty = set.effects.empty();
+    std::vector<Move> swaps = moves_from(base);
+    std::map<std::size_t, std::set<effects::Family>> met;
+    std::erase_if(swaps, [&](const Move& one) {
+      if (one.added == nullptr || one.dropped.has_value() == is_empty) return true;
+      auto& families = met[one.dropped.value_or(0)];
+      return families.size() == kRivalsOfOne || !families.insert(one.added->entry->family).second;
+    });
+    std::vector<ScoredFit> made(swaps.size());
+    in_parallel(swaps.size(), [&](std::size_t i) {
+      made[i] = scored_fit(likelihood_, swaps[i].of(base.candidate), work_, kLook, &base);
+    });
+    std::erase_if(made, [&](const ScoredFit& one) {
+      const bool is_near = is_empty || one.score <= base.score + options_.near;
+      return !is_near || !can_be_timed(one.candidate);
+    });
+    return made;
+  }
+
+  /// Returns the `most` effects whose moves of this set are predicted to be best, and those of the
+  /// families of its effects; all of a set that cannot be computed.
+  std::vector<Hypothesis> shortlist(const ScoredFit& set, std::size_t most) {
+    if (!set.is_possible()) return hypotheses_;
+    std::set<std::string> kept;
+    for (const Move& move : moves_from(set)) {
+      if (move.added != nullptr && kept.size() < most) kept.insert(move.added->label());
+    }
+    std::vector<Hypothesis> made;
+    for (const Hypothesis& one : hypotheses_) {
+      const bool is_of_family = std::ranges::any_of(set.candidate.effects, [&](const auto& own) {
+        return own.entry->family == one.entry->family;
+      });
+      if (is_of_family || kept.contains(one.label())) made.push_back(one);
+    }
+    return made;
+  }
+
+ private:
+  bool is_over(const ScoredFit& best) const {
+    return end_ == Climb::to_noise && leaves_noise(likelihood_, best);
+  }
+
+  /// Keeps the fits of the lowest score, of `most` sets of effects and so many of one set.
+  static void keep_best(std::vector<ScoredFit>& fits, std::size_t most, std::size_t of_one = 1) {
+    std::ranges::stable_sort(fits, {}, &ScoredFit::score);
+    std::map<Labels, std::size_t> kept;
+    std::erase_if(fits, [&](const ScoredFit& one) {
+      const Labels labels = one.candidate.labels();
+      return (kept.size() == most && !kept.contains(labels)) || kept[labels]++ >= of_one;
+    });
+  }
+
+  void meet(const ScoredFit& fit) {
+    const auto [at, is_new] = met_.try_emplace(fit.candidate.labels(), fit.score);
+    at->second = std::min(at->second, fit.score);
+  }
+
+  /// Returns the moves of `set`, which are computed once.
+  const std::vector<Move>& moves_from(const ScoredFit& set) {
+    const auto [at, is_new] = moves_.try_emplace(set.candidate.labels());
+    if (is_new) at->second = moves_of(likelihood_, set, hypotheses_, work_);
+    return at->second;
+  }
+
+  ScoredFit fitted(const Candidate& start) const { return scored_fit(likelihood_, start, work_); }
+
+  /// Returns the moves of `base` that are fitted: to sets that were not met before, and to smaller
+  /// ones that were met at another minimum.
+  std::vector<Move> looked_at(const ScoredFit& base, Looks kind) {
+    std::vector<Move> moves = moves_from(base);
+    std::size_t looks = 0;
+    std::set<Labels> new_sets;
+    const bool is_full = base.candidate.effects.size() >= options_.most_effects;
+    std::erase_if(moves, [&](const Move& one) {
+      if (is_full && one.added != nullptr && !one.dropped) return true;
+      const bool is_broad = kind == Looks::broad && one.added != nullptr && !one.dropped &&
+                            one.added->parameters.size() > 1;
+      if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
+      const Labels labels = one.of(base.candidate).labels();
+      const auto met = met_.find(labels);
+      const bool is_smaller = one.added == nullptr;
+      if (met == met_.end() || (is_smaller && one.score < met->second - options_.worth)) {
+        new_sets.insert(labels);
+      }
+      if (!new_sets.contains(labels)) return true;
+      if (!is_broad) ++looks;
+      return false;
+    });
+    return moves;
+  }
+
+  /// Returns fits of the moves of `base` (looked_at): those of the lowest score after a first look.
+  std::vector<ScoredFit> neighbours_of(const ScoredFit& base, Looks looks) {
+    const std::vector<Move> moves = looked_at(base, looks);
+    std::vector<ScoredFit> fits(moves.size());
+    in_parallel(moves.size(), [&](std::size_t i) {
+      fits[i] = scored_fit(likelihood_, moves[i].of(base.candidate), work_, kFirstLook, &base);
+    });
+    std::erase_if(fits, [](const ScoredFit& one) { return !one.is_possible(); });
+    keep_best(fits, options_.looks, kStartsOfOne);
+    in_parallel(fits.size(), [&](std::size_t i) {
+      fits[i] = scored_fit(likelihood_, fits[i].candidate, work_, kLook, &fits[i]);
+    });
+    for (const ScoredFit& one : fits) meet(one);
+    std::erase_if(fits, [&](const ScoredFit& one) { return !can_be_timed(one.candidate); });
+    return fits;
+  }
+
+  /// Returns whether the delay or lag that was added last is one that the clock of the data can
+  /// tell.
+  bool can_be_timed(const Candidate& set) const {
+    if (set.effects.empty()) return true;
+    const Hypothesis& last = set.effects.back();
+    if (last.entry->family != effects::Family::timing) return true;
+    return std::abs(set.values_of(set.effects.size() - 1).front()) >= least_time_s_;
+  }
+
+  const Likelihood& likelihood_;
+  double least_time_s_;
+  const std::vector<Hypothesis>& hypotheses_;
+  const SetSearchOptions& options_;
+  const ReportedWork& work_;
+  Climb end_;
+  std::map<Labels, double> met_;                 ///< the lowest score of each set that was fitted
+  std::set<std::pair<Labels, Looks>> expanded_;  ///< whose neighbours were
+  std::map<Labels, std::vector<Move>> moves_;
+};
+
+/// Returns the hypotheses that an arm has in one case of five (effects::Likely).
+std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
+  std::erase_if(hypotheses,
+                [](const Hypothesis& one) { return one.entry->prior != effects::Likely::common; });
+  return hypotheses;
 }
 
-double least_beyond_noise(const std::vector<Fit>& sets) {
-  return sets.empty() ? 0.0 : beyond_noise(sets.front().residuals);
+/// Adds the rivals of the best set (Rung::rivals) that do nearly as well on a part of the data to
+/// the beam, fitted to all data.
+void add_rivals(const Likelihood& likelihood, const Likelihood& part,
+                const std::vector<Hypothesis>& hypotheses, const SetSearchOptions& options,
+                const ReportedWork& work, std::vector<ScoredFit>& beam) {
+  const std::vector<ScoredFit> rivals =
+      Rung(part, hypotheses, options, work, Climb::to_the_end).rivals(beam.front().candidate);
+  std::vector<ScoredFit> fits(rivals.size());
+  in_parallel(fits.size(), [&](std::size_t i) {
+    fits[i] = scored_fit(likelihood, rivals[i].candidate, work, kLook);
+  });
+  std::erase_if(fits, [](const ScoredFit& one) { return !one.is_possible(); });
+  std::ranges::move(fits, std::back_inserter(beam));
+  std::ranges::stable_sort(beam, {}, &ScoredFit::score);
+  beam.front() = scored_fit(likelihood, beam.front().candidate, work);
+}
+
+/// Returns the number of samples of the longest `time` run for estimation; 0 without any.
+std::size_t longest_run(const Experiment& experiment) {
+  std::size_t longest = 0;
+  for (const auto& [run, data] : experiment.runs) {
+    if (run.purpose != measured::Purpose::estimation) continue;
+    if (const auto* record = std::get_if<measured::TimeRecord>(&data)) {
+      longest = std::max(longest, record->time_s.size());
+    }
+  }
+  return longest;
 }
 
 }  // namespace
 
-void SetSearch::begin(const Candidate& nothing, const std::vector<Candidate>& singles) {
-  if (parts_.is_early_shorter()) {
-    const Fit before = coarse_fit(parts_.early(), nothing, work_);
-    early_sets_ =
-        larger(parts_.early(), {before}, {.bases = 1, .fitted = options_.early_growth.fitted},
-               fitted(parts_.early(), singles));
-  }
-  coarse_sets_ = fitted(parts_.coarse(), singles);
-}
-
-void SetSearch::refit() {
-  early_sets_ = fitted(parts_.early(), best_of(early_sets_, options_.early_growth.bases));
-  coarse_sets_ = fitted(parts_.coarse(), best_of(coarse_sets_, options_.coarse_growth.bases));
-}
-
-const std::vector<Fit>& SetSearch::grow(std::string_view what, double to) {
-  const double from = work_.done();
-  work_.tell(what, from);
-  std::vector<Candidate> looks;
-  if (parts_.is_early_shorter()) {
-    early_sets_ = larger(parts_.early(), early_sets_, options_.early_growth);
-    looks = looks_of(early_sets_, options_.early_sets);
-    work_.tell(what, from + 0.5 * (to - from));
-  }
-  const double before = least_beyond_noise(coarse_sets_);
-  coarse_sets_ = larger_on_coarse(looks, coarse_sets_, options_.coarse_growth);
-  share_taken_ = before > 0.0 ? 1.0 - least_beyond_noise(coarse_sets_) / before : 0.0;
-  work_.tell(what, to);
-  return coarse_sets_;
-}
-
-double SetSearch::rms_over_noise() const {
-  const std::vector<Fit>& sets = parts_.is_early_shorter() ? early_sets_ : coarse_sets_;
-  if (sets.empty()) return 0.0;
-  const Eigen::VectorXd& left = sets.front().residuals;
-  return left.norm() / std::sqrt(static_cast<double>(left.size()));
-}
-
-std::vector<Fit> SetSearch::beside(const Candidate& base, std::size_t most) const {
-  const SetGrowth growth{.bases = 1, .special = most, .general = 0};
-  std::vector<Candidate> looks;
-  if (parts_.is_early_shorter()) {
-    const Fit early = coarse_fit(parts_.early(), base, work_);
-    looks = looks_of(larger(parts_.early(), {early}, growth), most);
-  }
-  return larger_on_coarse(looks, {coarse_fit(parts_.coarse(), base, work_)}, growth);
-}
-
-std::vector<Fit> SetSearch::larger_on_coarse(const std::vector<Candidate>& looks,
-                                             const std::vector<Fit>& sets,
-                                             const SetGrowth& growth) const {
-  std::vector<Fit> looked = fitted(parts_.coarse(), looks);
-  if (!looked.empty() && is_near_noise(looked.front())) return looked;
-  return larger(parts_.coarse(), sets, growth, std::move(looked));
-}
-
-std::vector<Fit> SetSearch::larger(const Problem& part, const std::vector<Fit>& sets,
-                                   const SetGrowth& growth, std::vector<Fit> known) const {
-  std::vector<std::vector<Start>> found(std::min(growth.bases, sets.size()));
-  in_parallel(found.size(),
-              [&](std::size_t i) { found[i] = with_additions(part, sets[i], growth); });
-  std::vector<Start> grown;
-  for (std::vector<Start>& of_one : found) std::ranges::move(of_one, std::back_inserter(grown));
-  std::ranges::stable_sort(grown, {}, &Start::expected);
-  std::set<std::set<std::string>> labels;
-  for (const Fit& set : known) labels.insert(set.candidate.labels());
-  std::erase_if(
-      grown, [&](const Start& start) { return !labels.insert(start.candidate.labels()).second; });
-  grown.resize(std::min(growth.fitted, grown.size()));
-  std::ranges::move(fits(part, grown), std::back_inserter(known));
-  return ahead_of_limits(std::move(known));
-}
-
-std::vector<SetSearch::Start> SetSearch::with_additions(const Problem& part, const Fit& set,
-                                                        const SetGrowth& growth) const {
-  std::vector<Start> made;
-  const auto add = [&](const std::vector<const Hypothesis*>& effects, std::size_t most) {
-    if (most == 0) return;
-    for (const Addition& addition : additions(part, set, effects, most, options_, work_)) {
-      made.push_back({.candidate = set.candidate.with(*addition.effect, addition.values),
-                      .expected = (1.0 - addition.share) * set.sum_of_squares,
-                      .near_base = set.candidate.with(*addition.effect, addition.values_near_base),
-                      .left_by_base = set.sum_of_squares});
-      for (const std::vector<double>& values : addition.values_elsewhere) {
-        made.back().elsewhere.push_back(set.candidate.with(*addition.effect, values));
-      }
-    }
+FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
+                         const SetSearchOptions& options, ReportedWork& work) {
+  const Problem& problem = likelihood.problem();
+  FoundSets made;
+  std::vector<ScoredFit> beam;
+  std::vector<Hypothesis> searched = hypotheses;
+  std::vector<Hypothesis> common = common_of(hypotheses);
+  std::size_t most = hypotheses.size();
+  bool has_climbed = false;
+  // Returns whether one effect leaves noise: then no set imitates it with fewer numbers.
+  const auto climb_afresh = [&](const Likelihood& part, const std::vector<Hypothesis>& effects,
+                                std::size_t width) {
+    std::vector<ScoredFit> fresh;
+    Rung rung(part, effects, options, work, Climb::to_noise);
+    rung.fit(fresh);
+    rung.climb(fresh, width, Looks::broad);
+    const ScoredFit& best = fresh.front();
+    const bool is_one = best.candidate.effects.size() <= 1 && leaves_noise(part, best);
+    std::ranges::move(fresh, std::back_inserter(beam));
+    return is_one;
   };
-  add(special_, growth.special);
-  add(general_, growth.general);
-  return made;
-}
-
-std::vector<Fit> SetSearch::fitted(const Problem& part,
-                                   const std::vector<Candidate>& candidates) const {
-  std::vector<Start> starts;
-  std::set<std::set<std::string>> labels;
-  for (const Candidate& candidate : candidates) {
-    if (labels.insert(candidate.labels()).second) starts.push_back({.candidate = candidate});
+  const auto climb = [&](const Likelihood& part, std::size_t width, Climb end) {
+    Rung rung(part, searched, options, work, end);
+    rung.fit(beam);
+    const bool is_noise = leaves_noise(part, beam.front());
+    if (!is_noise) {
+      const bool is_one = !has_climbed && climb_afresh(part, hypotheses, width);
+      if (!is_one) climb_afresh(part, common, width);
+    }
+    const bool is_broad = !is_noise && !has_climbed;
+    rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
+    has_climbed = has_climbed || !is_noise;
+    if (!has_climbed || end == Climb::to_the_end) return;
+    most /= options.halving;
+    searched = rung.shortlist(beam.front(), most);
+  };
+  try {
+    std::size_t width = options.beam;
+    const std::size_t longest = longest_run(problem.experiment());
+    for (const std::size_t samples : options.rungs) {
+      if (samples >= longest) break;
+      work.tell("effects on a part of the data", 0.1);
+      const PartOfData part(problem, samples, options.coarse_modes);
+      climb(part.likelihood(), width, Climb::to_noise);
+      width = has_climbed ? 1 : width;
+    }
+    work.tell("effects on all data", 0.5);
+    climb(likelihood, width, Climb::to_the_end);
+    const ScoredFit& best = beam.front();
+    if (best.candidate.effects.empty() && leaves_noise(likelihood, best)) return {std::move(beam)};
+    work.tell("rivals of the effects that were found", 0.8);
+    if (options.rungs[1] < longest) {
+      const PartOfData part(problem, options.rungs[1], options.coarse_modes);
+      add_rivals(likelihood, part.likelihood(), hypotheses, options, work, beam);
+    } else {
+      add_rivals(likelihood, likelihood, hypotheses, options, work, beam);
+    }
+  } catch (const Cancelled&) {
+    if (!work.is_out_of_time()) throw;
+    made.is_complete = false;
   }
-  return ahead_of_limits(fits(part, starts));
-}
-
-std::vector<Fit> SetSearch::fits(const Problem& part, const std::vector<Start>& starts) const {
-  std::vector<Fit> made(starts.size());
-  in_parallel(starts.size(), [&](std::size_t i) {
-    const Start& start = starts[i];
-    made[i] = coarse_fit(part, start.candidate, work_);
-    const auto try_from = [&](const Candidate& other) {
-      Fit again = coarse_fit(part, other, work_);
-      if (again.sum_of_squares < made[i].sum_of_squares) made[i] = std::move(again);
-    };
-    std::ranges::for_each(start.elsewhere, try_from);
-    if (made[i].sum_of_squares > start.left_by_base) try_from(start.near_base);
-  });
+  if (beam.empty()) beam.push_back({.candidate = problem.as_filed()});
+  made.best = std::move(beam);
   return made;
-}
-
-std::vector<Fit> SetSearch::ahead_of_limits(std::vector<Fit> sets) const {
-  std::ranges::stable_sort(sets, {}, &Fit::sum_of_squares);
-  std::vector<Fit> ahead;
-  std::ranges::copy_if(sets, std::back_inserter(ahead),
-                       [&](const Fit& one) { return is_ahead_of_limits(one, sets); });
-  return ahead;
-}
-
-bool SetSearch::is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const {
-  return std::ranges::none_of(sets, [&](const Fit& other) {
-    return has_limit_in_place(other.candidate, set.candidate) &&
-           !is_ahead_of_limit(set, other, options_);
-  });
 }
 
 }  // namespace flexarm::diagnose

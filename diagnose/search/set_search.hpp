@@ -1,96 +1,58 @@
 #pragma once
 
-#include "diagnose/search/coarse_problems.hpp"
-#include "diagnose/search/reported_work.hpp"
-#include "diagnose/search/selection_options.hpp"
+#include "diagnose/search/scored_fit.hpp"
 
+#include <array>
 #include <cstddef>
 #include <limits>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 namespace flexarm::diagnose {
 
-/// Sets of several effects, one more at a time, on the beginning of the runs. Of several effects
-/// that all shift frequencies none need be among the best by itself, and at the end of a lightly
-/// damped record each set has many minima. In its first few periods the residuals are nearly linear
-/// in the parameters, a score test tells which effects a set lacks, and a fit of few steps ends
-/// near the values that all of the record has.
-///
-/// Sets of n effects are made of the best of n - 1, each with those effects that the score test
-/// ranks first (additions.hpp), and fitted; on the early part, the best of which are refitted to
-/// the coarse part, and on the coarse part, where effects show that need time. A set with a general
-/// effect goes on where it leaves clearly less than the same set with a limit of that effect:
-/// options.general_gain.
-class SetSearch {
- public:
-  /// Of `special` effects, and of `general` ones, which have another as a limit. The references
-  /// must outlive the object.
-  SetSearch(const CoarseProblems& parts, std::vector<const Hypothesis*> special,
-            std::vector<const Hypothesis*> general, const SelectionOptions& options,
-            ReportedWork& work)
-      : parts_(parts),
-        special_(std::move(special)),
-        general_(std::move(general)),
-        options_(options),
-        work_(work) {}
-
-  /// Begins with effects by themselves: `singles`, and those that the score test makes of
-  /// `nothing`.
-  void begin(const Candidate& nothing, const std::vector<Candidate>& singles);
-  /// Fits the sets that it has once more, where parts have become longer.
-  void refit();
-  /// Sets of one effect more than before, fitted to the coarse part, the best first. As part of
-  /// `what`, up to the fraction `to` of the work. Throws Cancelled where the work is cancelled.
-  const std::vector<Fit>& grow(std::string_view what, double to);
-  /// Part of what the best set left beyond noise on the coarse part that the effect which `grow`
-  /// added last takes away.
-  double share_taken() const { return share_taken_; }
-  /// RMS value of what the best set leaves on the early part, in standard deviations of the noise.
-  double rms_over_noise() const;
-  /// `base` with each of the special effects that it lacks most, on the early part and on the
-  /// coarse part, fitted to the coarse part; the best first.
-  std::vector<Fit> beside(const Candidate& base, std::size_t most) const;
-
- private:
-  /// A set that is to be fitted.
-  struct Start {
-    Candidate candidate;
-    double expected = 0.0;  ///< sum of squares that the score test expects it to leave
-    std::vector<Candidate> elsewhere = {};  ///< the same set at other values
-    // Of a set with one effect more than a fitted one: where a fit from `candidate` leaves more
-    // than that left, it went astray, and begins again beside the fitted set.
-    Candidate near_base = {};
-    double left_by_base = std::numeric_limits<double>::infinity();
-  };
-
-  /// `known`, which are fits to `part`, and of the best of `sets`, each with the effects that it
-  /// lacks most, those that are expected to leave least, fitted; the best first, each set once.
-  std::vector<Fit> larger(const Problem& part, const std::vector<Fit>& sets,
-                          const SetGrowth& growth, std::vector<Fit> known = {}) const;
-  /// The same on the coarse part, `looks` fitted to it being known. These alone where one of them
-  /// leaves noise: others that do take the place of one of its effects, and are among exchanges.
-  std::vector<Fit> larger_on_coarse(const std::vector<Candidate>& looks,
-                                    const std::vector<Fit>& sets, const SetGrowth& growth) const;
-  std::vector<Start> with_additions(const Problem& part, const Fit& set,
-                                    const SetGrowth& growth) const;
-  /// One a start.
-  std::vector<Fit> fits(const Problem& part, const std::vector<Start>& starts) const;
-  /// Each set once, without those that are not ahead of one with a limit of an effect; the best
-  /// first.
-  std::vector<Fit> fitted(const Problem& part, const std::vector<Candidate>& candidates) const;
-  std::vector<Fit> ahead_of_limits(std::vector<Fit> sets) const;
-  bool is_ahead_of_limits(const Fit& set, const std::vector<Fit>& sets) const;
-
-  const CoarseProblems& parts_;
-  std::vector<const Hypothesis*> special_;
-  std::vector<const Hypothesis*> general_;
-  const SelectionOptions& options_;
-  ReportedWork& work_;
-  std::vector<Fit> early_sets_ = {};
-  std::vector<Fit> coarse_sets_ = {};
-  double share_taken_ = 0.0;
+/// How far the ranked search goes.
+struct SetSearchOptions {
+  std::size_t beam = 3;   ///< sets that are kept at a time on the first rung; on others one is
+  std::size_t looks = 6;  ///< moves of each that are fitted, the best by prediction
+  std::size_t most_effects = std::numeric_limits<std::size_t>::max();  ///< of a set
+  /// Each rung is climbed with this part of the effects of the one below, the best by prediction.
+  std::size_t halving = 2;
+  /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
+  /// known better.
+  double least_time = 0.1;
+  /// A set that was fitted is fitted again from another start that is predicted to be lower by
+  /// this.
+  double worth = 1.0;
+  /// A rival whose score on a part of the data is higher by less than this is fitted to all data.
+  double near = 10.0;
+  /// Flexible modes on the rungs below all data <= this.
+  int coarse_modes = 6;
+  /// Samples of each run on the rungs below all data.
+  std::array<std::size_t, 3> rungs = {400, 1600, 6400};
 };
+
+/// The sets of effects that a search ends with.
+struct FoundSets {
+  /// The best first; those behind it are the others of the last beam, and rivals: the best with one
+  /// effect exchanged for another, one of a family; where the best has no effects, single ones.
+  std::vector<ScoredFit> best = {};
+  bool is_complete = true;  ///< fitted to all estimation runs
+};
+
+/// Searches the set of effects with the lowest score (scored_fit.hpp): on a ladder of ever more
+/// data, whose last rung is the runs of `likelihood`,
+///
+/// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
+///   fitted, while the best score falls;
+/// - a rung on which the beam does not leave noise is climbed from the arm as filed too: the first
+///   such one with all effects, and each with the `common` effects alone (effects::Likely), unless
+///   one effect by itself left noise; the best of what these and the rung below found goes on;
+/// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
+/// - the next rung has a part of the effects, those that do best and those of the families of the
+///   set.
+///
+/// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
+/// Cancelled where the work is cancelled otherwise.
+FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
+                         const SetSearchOptions& options, ReportedWork& work);
 
 }  // namespace flexarm::diagnose

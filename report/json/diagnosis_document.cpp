@@ -12,7 +12,7 @@ namespace flexarm::report {
 
 std::string diagnosis_document(const diagnose::Diagnosis& diagnosis,
                                const std::string& extended_arm) {
-  return json_document("flexarm.diagnosis/2", diagnosis_json(diagnosis, extended_arm));
+  return json_document("flexarm.diagnosis/3", diagnosis_json(diagnosis, extended_arm));
 }
 
 std::filesystem::path extended_arm_beside(const std::filesystem::path& json_file) {

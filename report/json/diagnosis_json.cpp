@@ -168,11 +168,7 @@ Json search_json(const diagnose::Diagnosis& diagnosis) {
                {"time_limit", nullptr},
                {"ended_at", nullptr},
                {"untried", Json::array()},
-               {"ruled_out", Json::array()},
                {"excluded", diagnosis.excluded}};
-  for (const auto& [effect, share] : diagnosis.ruled_out) {
-    json["ruled_out"].push_back({{"effect", effect}, {"explained_share", explained_share(share)}});
-  }
   if (diagnosis.time_limit_s) json["time_limit"] = *diagnosis.time_limit_s;
   if (const auto& end = diagnosis.search_end) {
     json["ended_at"] = end->stage;
@@ -250,10 +246,6 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
                           {"delta_bic", miss.information},
                           {"nrmse", miss.error}});
   }
-  Json inconsistent = Json::array();
-  for (const auto& drift : diagnosis.inconsistent) {
-    inconsistent.push_back(run_consistency_json(drift));
-  }
   return {{"verdict", to_string(diagnosis.verdict)},
           {"symptoms", statements_json(symptoms)},
           {"causes", causes},
@@ -276,7 +268,6 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
             {"run_consistency",
              symptoms.drift ? run_consistency_json(*symptoms.drift) : Json(nullptr)}}},
           {"candidates", candidates},
-          {"inconsistent_effects", inconsistent},
           {"uncertain_numbers", uncertain_numbers},
           {"empirical_law", empirical_law_json(diagnosis.empirical_law)},
           {"missing_force", missing_force_json(diagnosis.missing_force)},

@@ -18,7 +18,7 @@ namespace flexarm::report {
 namespace {
 
 /// Of a cause that is named by itself.
-constexpr double kLeastProbability = diagnose::SelectionOptions{}.least_probability;
+constexpr double kLeastProbability = 0.5;
 
 /// "coulomb_friction (probability 0.98)"; of a class "one of time_delay, actuator_lag (...)".
 std::string headline(const diagnose::Cause& cause) {
@@ -111,48 +111,18 @@ std::string floor_of(const diagnose::Gain& gain) {
   return text;
 }
 
-/// "root_compliance stiffness: 786 N m/rad (run low) to 906 N m/rad (run high)".
-std::string inconsistency_text(const diagnose::RunDrift& drift) {
-  const auto [least, most] = drift.range();
-  const std::string unit = arm::unit_suffix(drift.unit);
-  return fmt::format("{} {}: {:.4g}{} (run {}) to {:.4g}{} (run {})", drift.effect, drift.parameter,
-                     least.value, unit, least.run, most.value, unit, most.run);
-}
-
-/// The effects that are not named beside causes, for that their estimates differ.
-std::string inconsistent_text(const diagnose::Diagnosis& diagnosis) {
-  std::vector<std::string> all;
-  for (const auto& drift : diagnosis.inconsistent) all.push_back(inconsistency_text(drift));
-  if (all.empty()) return "";
-  return fmt::format(" Not identified, because the estimates from each run are inconsistent: {}.",
-                     fmt::join(all, "; "));
-}
-
 /// Why no effect is named.
 std::string no_name_reason(const diagnose::Diagnosis& diagnosis) {
-  const diagnose::SelectionOptions bars;
-  if (!diagnosis.inconsistent.empty()) {
-    return "no effect is identified. The one that fits best has inconsistent estimates from each "
-           "run: " +
-           inconsistency_text(diagnosis.inconsistent.front());
-  }
   if (diagnosis.near_misses.empty() ||
       diagnosis.near_misses.front().probability < kLeastProbability) {
     return fmt::format("no effect that was tried has a probability of {:g} or more",
                        kLeastProbability);
   }
   const diagnose::NearMiss& best = diagnosis.near_misses.front();
-  const std::string named = fmt::format("no effect is identified. The most probable, {} ({:.2g}),",
-                                        best.effects, best.probability);
-  if (best.share < bars.least_share) {
-    return fmt::format("{} explains {:.0f} % of the excess residual; {:.0f} % are required", named,
-                       explained_percent(best.share), 100.0 * bars.least_share);
-  }
-  if (best.error > bars.largest_error_left) {
-    return fmt::format("{} leaves a simulation with an NRMSE of {:.3g} %", named,
-                       100.0 * best.error);
-  }
-  return named + " has a parameter that the data do not determine, or fails on validation runs";
+  return fmt::format(
+      "no effect is identified. The most probable set, {} ({:.2g}), does not predict the validation "
+      "runs better than the arm as filed",
+      best.effects, best.probability);
 }
 
 std::vector<Cell> gain_row(const std::string& runs, const diagnose::Gain& gain) {
@@ -211,9 +181,8 @@ std::string verdict_text(const diagnose::Diagnosis& diagnosis) {
       return fmt::format("Explained by {}: the residuals are noise. {}", explanation_of(diagnosis),
                          fall);
     case diagnose::Verdict::partly_explained:
-      return fmt::format("Partly explained by {}. {}{}{}{}", explanation_of(diagnosis), fall,
-                         not_noise(diagnosis), beyond_causes(diagnosis),
-                         inconsistent_text(diagnosis));
+      return fmt::format("Partly explained by {}. {}{}{}", explanation_of(diagnosis), fall,
+                         not_noise(diagnosis), beyond_causes(diagnosis));
     case diagnose::Verdict::unexplained:
       return fmt::format(
           "Unexplained: {}. {}{}", no_name_reason(diagnosis),

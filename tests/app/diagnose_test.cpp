@@ -72,7 +72,7 @@ TEST_F(Diagnose, NamesTheCauseAndWritesAnArmThatOtherCommandsAccept) {
   EXPECT_THAT(names_in("out"),
               IsSupersetOf({"causes.csv", "channels.csv", "diagnosis.json", "extended.toml"}));
   const Json json = Json::parse(text_of("out/diagnosis.json"));
-  EXPECT_EQ(json["schema"], "flexarm.diagnosis/2");
+  EXPECT_EQ(json["schema"], "flexarm.diagnosis/3");
   EXPECT_EQ(json["verdict"], "explained");
   ASSERT_EQ(json["causes"].size(), 1U);
   const double mass = json["causes"][0]["parameters"]["mass"]["value"];

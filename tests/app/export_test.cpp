@@ -77,7 +77,7 @@ TEST_F(ExportCommand, RefusesFilesThatAreNoDiagnosis) {
       "a.json: is not JSON; must be an arm file (.toml) or the JSON of flexarm diagnose");
   write("b.json", "{\"schema\": \"flexarm.modes/1\"}");
   expect_refused(run({"export", "--fmu", "b.json"}),
-                 "b.json: schema is not flexarm.diagnosis/2; must be an arm file (.toml) or the "
+                 "b.json: schema is not flexarm.diagnosis/3; must be an arm file (.toml) or the "
                  "JSON of flexarm diagnose");
   write("c.json", "{\"schema\": \"flexarm.diagnosis/2\", \"extended_arm\": null}");
   expect_refused(run({"export", "--fmu", "c.json"}),

@@ -318,7 +318,7 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
         "arm = \"arm.toml\"\n[[run]]\nid = \"table\"\nkind = \"modal\"\n"
         "file = \"modal.csv\"\n");
   diagnose("modal.toml", "payload_mass,flexural_rigidity,linear_density,root_compliance");
-  expect_as_documented(documents, "flexarm.diagnosis/2");
+  expect_as_documented(documents, "flexarm.diagnosis/3");
 }
 
 TEST_F(JsonSchema, WhatExportWritesIsWhatTheDocumentSays) {

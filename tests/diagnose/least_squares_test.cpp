@@ -64,45 +64,5 @@ TEST(LeastSquares, FollowsABentValley) {
   EXPECT_NEAR(found.places(1), 1.0, 1e-6);
 }
 
-TEST(LeastSquares, EndsWhereTheMinimumIsOutOfReach) {
-  const auto residuals = [](const Eigen::VectorXd& places) { return decay(places, 0.1); };
-  const Eigen::Vector3d start(0.4, 0.6, 0.4);
-  const double least = least_squares(residuals, start).residuals.squaredNorm();
-  const LeastSquares reached = least_squares(residuals, start, {.highest_minimum = 1.001 * least});
-  EXPECT_FALSE(reached.is_out_of_reach);
-  EXPECT_TRUE(reached.converged);
-  EXPECT_NEAR(reached.residuals.squaredNorm(), least, 1e-6 * least);
-  const LeastSquares left = least_squares(residuals, start, {.highest_minimum = 0.5 * least});
-  EXPECT_TRUE(left.is_out_of_reach);
-  EXPECT_FALSE(left.converged);
-  EXPECT_LT(left.evaluations, reached.evaluations);
-}
-
-TEST(LeastSquares, WithoutStepsIsWhereItBegan) {
-  const Eigen::Vector3d start(0.5, 0.5, 0.5);
-  const LeastSquares found = least_squares(
-      [](const Eigen::VectorXd& places) { return decay(places, 0.1); }, start, {.most_steps = 0});
-  EXPECT_EQ(found.places, Eigen::VectorXd(start));
-  EXPECT_EQ(found.residuals, decay(start, 0.1));
-  EXPECT_EQ(found.evaluations, 4);
-}
-
-/// Where friction reverses, residuals jump with the parameters: their derivatives are far larger
-/// than what they change by over a step, and lead to steps that are far too short.
-TEST(LeastSquares, GoesFurtherThanSteepRipplesLead) {
-  constexpr Eigen::Index kCount = 500;
-  constexpr double kMinimum = 0.9;
-  constexpr double kHeight = 1e-3;
-  constexpr double kSlope = 8.0;  // of the ripples; that of the rest is 1
-  const auto residuals = [](const Eigen::VectorXd& places) -> Eigen::VectorXd {
-    return Eigen::VectorXd::NullaryExpr(kCount, [&](Eigen::Index k) {
-      const double phase = kSlope / kHeight * places(0) + static_cast<double>(k * k);
-      return places(0) - kMinimum + kHeight * std::sin(phase);
-    });
-  };
-  const LeastSquares found = least_squares(residuals, Eigen::VectorXd::Constant(1, 0.2));
-  EXPECT_NEAR(found.places(0), kMinimum, 10.0 * kHeight);
-}
-
 }  // namespace
 }  // namespace flexarm::diagnose

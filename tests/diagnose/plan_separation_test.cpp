@@ -2,9 +2,9 @@
 #include "diagnose/planning/plan.hpp"
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/hypothesis.hpp"
-#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
+#include "tests/diagnose/start_on_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ Foretold foretell(const std::string& effect, double value, const std::string& ri
   const std::vector<bool> all(planned.experiment().runs.size(), true);
   const Problem foreseen =
       planned.problem(planned.as_described().predictor()(truth.extend(without.arm), all));
-  const Candidate start = scan(foreseen, Candidate{{other}, {other.parameters[0].value(0.5)}}, 60);
+  const Candidate start =
+      start_on_grid(foreseen, Candidate{{other}, {other.parameters[0].value(0.5)}}, 60);
   Foretold made;
   made.expected = separate_by_fit(foreseen, truth, start).lead;
 

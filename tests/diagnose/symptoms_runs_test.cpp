@@ -119,39 +119,6 @@ TEST(RunDrift, IsOfTheSizeOfTheEffect) {
   EXPECT_TRUE(drift_symptoms(*drift).front().is_significant);
 }
 
-/// Of the effect at `value`, in an experiment that hides `all`, and in one of the runs `other`.
-std::optional<RunDrift> inconsistent(const arm::Effects& all, const arm::Effects& other,
-                                     const std::string& effect, double value) {
-  Experiment experiment = simulated_experiment(all);
-  experiment.runs[1] = simulated_experiment(other).runs[1];
-  const Symptomatic data(std::move(experiment));
-  const Candidate candidate = only(data.problem().experiment(), effect, value);
-  return inconsistent_estimates(data.problem(), candidate, 0);
-}
-
-TEST(InconsistentEstimates, AreOfMassOrStiffnessThatDiffersBetweenRuns) {
-  const auto inertia = [](double factor) {
-    return effects::named("hub_inertia", {{"factor", factor}});
-  };
-  const auto found = inconsistent({inertia(1.2)}, {inertia(1.25)}, "hub_inertia", 1.2);
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(found->spread(), 0.24, 0.03);
-  EXPECT_FALSE(inconsistent({inertia(1.2)}, {inertia(1.21)}, "hub_inertia", 1.2));
-}
-
-TEST(InconsistentEstimates, AreNoneBesideAnotherEffect) {
-  const arm::Effects both = {effects::named("hub_inertia", {{"factor", 1.2}}),
-                             effects::named("coulomb_friction", {{"torque", 0.005}})};
-  EXPECT_FALSE(inconsistent(both, both, "hub_inertia", 1.2));
-}
-
-TEST(InconsistentEstimates, AreNotOfFriction) {
-  const auto friction = [](double torque_N_m) {
-    return effects::named("coulomb_friction", {{"torque", torque_N_m}});
-  };
-  EXPECT_FALSE(inconsistent({friction(0.01)}, {friction(0.02)}, "coulomb_friction", 0.012));
-}
-
 double largest_torque_N_m(const Experiment& experiment, std::size_t run) {
   const auto& torque = std::get<measured::TimeRecord>(experiment.runs[run].data).torque_N_m;
   return std::abs(*std::ranges::max_element(torque, {}, [](double one) { return std::abs(one); }));

@@ -1,6 +1,5 @@
 // Torque balance at the hub: what is missing of the torque for the motion that was measured.
 #include "diagnose/predictors/noise_estimate.hpp"
-#include "diagnose/search/admission.hpp"
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -8,8 +7,6 @@
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
-
-#include <utility>
 
 namespace flexarm::diagnose {
 namespace {
@@ -35,29 +32,6 @@ TEST(TorqueBalance, NamesFrictionAndBiasOfAClosedLoop) {
   const auto made = select_by_evidence(experiment, hypotheses_of_an_axis(experiment), {}, {});
   EXPECT_EQ(made.predictor, PredictorKind::torque_balance);
   expect_friction_and_bias(made.selection);
-}
-
-TEST(TorqueBalance, RunsAwayWhereMostOfTheTorqueIsLeftToADisturbance) {
-  const Axis axis;
-  const Experiment experiment = axis_experiment(axis);
-  const Problem balanced(experiment, {.noise = NoiseModel{1.0, 0.1, 0.0, {}, 1.0}});
-  const auto is_runaway = [&](const Candidate& candidate) {
-    return runs_away(explain(balanced, fit(balanced, candidate)), {});
-  };
-  Candidate hub = balanced.as_filed();
-  EXPECT_TRUE(is_runaway(hub));  // friction takes most of the torque
-  for (const auto& [effect, value] :
-       {std::pair{"coulomb_friction", axis.coulomb_N_m},
-        std::pair{"hub_viscous_friction", axis.viscous_N_m_s_per_rad}}) {
-    hub = hub.with(named(experiment, {effect}).front(), {value});
-  }
-  EXPECT_FALSE(is_runaway(hub));
-}
-
-TEST(OutputError, RunsAwayWithoutTheFrictionOfAClosedLoop) {
-  const Experiment experiment = axis_experiment();
-  const Problem simulated(experiment);
-  EXPECT_TRUE(runs_away(explain(simulated, fit(simulated, simulated.as_filed())), {}));
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // beam_length against the arm whose file has that length, and a fit that looks for it.
 #include "compare/sweeps/sweep.hpp"
 #include "diagnose/search/fit.hpp"
-#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "exact_tf/exact_arm.hpp"
 #include "fem/fem_arm.hpp"
+#include "tests/diagnose/start_on_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -105,7 +105,7 @@ TEST(BeamLength, IsFoundByAFitThatScansItsWholeRange) {
                                         {"hub_angle", "tip_acceleration", "strain@0.05"});
     const diagnose::Problem problem(experiment);
     const auto start = diagnose::Candidate{}.with(hypothesis_of(experiment), {1.0});
-    const auto found = diagnose::fit(problem, diagnose::scan(problem, start, 60));
+    const auto found = diagnose::fit(problem, diagnose::start_on_grid(problem, start, 60));
     EXPECT_TRUE(found.converged);
     EXPECT_NEAR(found.candidate.values[0] / factor, 1.0, 1e-6);
   }

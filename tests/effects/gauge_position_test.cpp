@@ -1,11 +1,11 @@
 // gauge_position against a gauge that is where it has been moved to.
 #include "arm/input_error.hpp"
 #include "diagnose/search/fit.hpp"
-#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "measured/files/arm_file.hpp"
 #include "response/formulation_maker.hpp"
+#include "tests/diagnose/start_on_grid.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -147,7 +147,7 @@ TEST(GaugePosition, IsFoundFromTheZerosOfAModalTable) {
   ASSERT_NE(hypothesis, all.end());
   const diagnose::Problem problem(experiment);
   const auto start = diagnose::Candidate{}.with(*hypothesis, {0.0});
-  const auto found = diagnose::fit(problem, diagnose::scan(problem, start, 40));
+  const auto found = diagnose::fit(problem, diagnose::start_on_grid(problem, start, 40));
   EXPECT_NEAR(found.candidate.values[0], 0.013, 1e-5);
 }
 

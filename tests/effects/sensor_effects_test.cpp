@@ -1,7 +1,6 @@
 // sensor_gain, sensor_offset and sensor_delay: what they make of readings, and that the sensor is
 // found on which they act.
 #include "diagnose/search/fit.hpp"
-#include "diagnose/search/scan.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "laws/effect_arms.hpp"
 #include "measured/files/arm_file.hpp"
@@ -9,6 +8,7 @@
 #include "response/frequency/frequency_response.hpp"
 #include "response/time/arm_simulator.hpp"
 #include "response/time/time_model.hpp"
+#include "tests/diagnose/start_on_grid.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -172,7 +172,7 @@ TEST_P(SensorEffect, IsFoundOnTheSensorThatItActsOn) {
   for (const auto& hypothesis : diagnose::hypotheses(experiment)) {
     if (hypothesis.sensor.empty()) continue;
     const auto start = diagnose::Candidate{}.with(hypothesis, hypothesis.middle());
-    const auto fit = diagnose::fit(problem, diagnose::scan(problem, start, 40));
+    const auto fit = diagnose::fit(problem, diagnose::start_on_grid(problem, start, 40));
     if (fit.sum_of_squares >= least) continue;
     least = fit.sum_of_squares;
     best = hypothesis.label();

@@ -23,7 +23,7 @@ TEST(FileKindTest, FilesOfFlexarmAreRecognised) {
       {"time [s],torque [N m]\n0,1\n1,2\n2,3\n", FileKind::time_record},
       {"frequency [Hz],sensor,re,im\n1,hub_angle,1,2\n", FileKind::frequency_record},
       {"sensor,feature,order,frequency [Hz]\nhub_angle,pole,1,11\n", FileKind::modal_table},
-      {"{\"schema\": \"flexarm.diagnosis/2\"}", FileKind::result},
+      {"{\"schema\": \"flexarm.diagnosis/3\"}", FileKind::result},
       {"Zeit;Moment\n0,1;2\n0,2;3\n", FileKind::log},
       {"[{\"t\": 0, \"tau\": 1}, {\"t\": 1, \"tau\": 1}]", FileKind::log},
       {"    -1\n    58\n", FileKind::log}};

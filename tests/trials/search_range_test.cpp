@@ -1,5 +1,5 @@
-// Sizes of the trials against the ranges in which the product looks for them. A cause at the end of
-// its range is no cause (diagnose/search/admission.hpp): a trial must not hide one there.
+// Sizes of the trials against the ranges in which the product looks for them: a fit begins inside
+// (diagnose/search/moves.hpp), so that a trial must not hide one at an end.
 #include "diagnose/experiment.hpp"
 #include "diagnose/search/hypothesis.hpp"
 #include "tests/trials/trial_case.hpp"

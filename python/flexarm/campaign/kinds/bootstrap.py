@@ -50,10 +50,10 @@ def _diagnosis(table, folder):
     try:
         result = json.loads(path.read_text(encoding="utf-8"))
         causes, arm = result["causes"], result["extended_arm"]
-        if result["schema"] != "flexarm.diagnosis/2":
+        if result["schema"] not in ("flexarm.diagnosis/2", "flexarm.diagnosis/3"):
             raise KeyError
     except (OSError, ValueError, KeyError, TypeError):
-        table.fail("diagnosis", "must be a file of flexarm diagnose --json, schema 2")
+        table.fail("diagnosis", "must be a file of flexarm diagnose --json, schema 2 or 3")
     if not causes or not arm or not (path.parent / arm).is_file():
         table.fail("diagnosis", "names no cause, or its extended arm is not beside it")
     return causes

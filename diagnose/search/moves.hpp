@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnose/ranked/ranked_fit.hpp"
+#include "diagnose/search/scored_fit.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@ struct Move {
   std::optional<std::size_t> dropped = {};  ///< index of the effects of the set
   const Hypothesis* added = nullptr;
   std::vector<double> values = {};  ///< of the added effect, to begin a fit with
-  double score = 0.0;               ///< predicted RankedFit::score of the fit
+  double score = 0.0;               ///< predicted ScoredFit::score of the fit
 
   Candidate of(const Candidate& set) const;
 };
@@ -31,7 +31,7 @@ struct Move {
 /// set, so that it serves all swaps but those within a family: effects of a family act at one
 /// place, and what one of them changes depends on the others. Throws Cancelled where the work is
 /// cancelled.
-std::vector<Move> moves_of(const Likelihood& likelihood, const RankedFit& base,
+std::vector<Move> moves_of(const Likelihood& likelihood, const ScoredFit& base,
                            const std::vector<Hypothesis>& others, const ReportedWork& work);
 
 }  // namespace flexarm::diagnose

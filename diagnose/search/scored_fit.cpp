@@ -1,4 +1,4 @@
-#include "diagnose/ranked/ranked_fit.hpp"
+#include "diagnose/search/scored_fit.hpp"
 
 #include "diagnose/parallel.hpp"
 
@@ -69,7 +69,7 @@ class Derivatives {
 
   /// Computes the derivatives at `here`, where the lines are `lines`. Those by nuisances and by the
   /// effects that `base` has as well are taken from it, where it is given.
-  void compute(const VectorXd& here, const VectorXd& lines, const RankedFit* base = nullptr) {
+  void compute(const VectorXd& here, const VectorXd& lines, const ScoredFit* base = nullptr) {
     matrix_ = MatrixXd::Zero(lines.size(), here.size());
     std::vector<Index> unknown;
     std::vector<Index> known(static_cast<std::size_t>(here.size()), -1);
@@ -180,10 +180,10 @@ double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorX
   return sum + pivots.array().max(1.0).log().sum();
 }
 
-RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
-                     const RankedFitOptions& options, const RankedFit* base) {
+ScoredFit scored_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
+                     const ScoredFitOptions& options, const ScoredFit* base) {
   const Places places(start);
-  RankedFit made{.candidate = start};
+  ScoredFit made{.candidate = start};
   VectorXd here = places.bounded(start.coordinates());
   made.candidate.put(here);
   work.go_on();

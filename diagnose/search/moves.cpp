@@ -1,4 +1,4 @@
-#include "diagnose/ranked/moves.hpp"
+#include "diagnose/search/moves.hpp"
 
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/refit_projection.hpp"
@@ -112,7 +112,7 @@ class Ground {
 /// The moves of one set.
 class Neighbourhood {
  public:
-  Neighbourhood(const Likelihood& likelihood, const RankedFit& base, const ReportedWork& work)
+  Neighbourhood(const Likelihood& likelihood, const ScoredFit& base, const ReportedWork& work)
       : likelihood_(likelihood), base_(base), work_(work) {
     const Candidate& set = base.candidate;
     whole_ = std::make_unique<Ground>(likelihood, set, base.lines, base.jacobian);
@@ -195,7 +195,7 @@ class Neighbourhood {
   }
 
   const Likelihood& likelihood_;
-  const RankedFit& base_;
+  const ScoredFit& base_;
   const ReportedWork& work_;
   std::unique_ptr<Ground> whole_;
   std::vector<std::unique_ptr<Ground>> without_;  ///< one an effect; null where there is no arm
@@ -208,7 +208,7 @@ Candidate Move::of(const Candidate& set) const {
   return added != nullptr ? rest.with(*added, values) : rest;
 }
 
-std::vector<Move> moves_of(const Likelihood& likelihood, const RankedFit& base,
+std::vector<Move> moves_of(const Likelihood& likelihood, const ScoredFit& base,
                            const std::vector<Hypothesis>& others, const ReportedWork& work) {
   const Neighbourhood neighbourhood(likelihood, base, work);
   std::vector<std::vector<Move>> with_each(others.size());

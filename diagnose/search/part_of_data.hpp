@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnose/ranked/likelihood.hpp"
+#include "diagnose/search/likelihood.hpp"
 #include "diagnose/search/problem.hpp"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "diagnose/ranked/evidence_of_fit.hpp"
+#include "diagnose/search/evidence_of_fit.hpp"
 
 #include "diagnose/parallel.hpp"
 #include "measured/spectra/tail_probability.hpp"
@@ -75,7 +75,7 @@ void set_errors(const std::vector<ArrayXd>& without, const std::vector<ArrayXd>&
 /// The estimates of one effect by each run alone.
 class RunEstimates {
  public:
-  RunEstimates(const Likelihood& all_runs, const RankedFit& fit)
+  RunEstimates(const Likelihood& all_runs, const ScoredFit& fit)
       : all_runs_(all_runs), fit_(fit), weights_(all_runs.weights(fit.lines)) {}
 
   /// Sets the runs of `evidence`, and their agreement, for the effect at `index`.
@@ -136,21 +136,21 @@ class RunEstimates {
   }
 
   const Likelihood& all_runs_;
-  const RankedFit& fit_;
+  const ScoredFit& fit_;
   VectorXd weights_;
 };
 
 }  // namespace
 
-std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const RankedFit& chosen,
-                                              const std::vector<RankedFit>& without,
+std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const ScoredFit& chosen,
+                                              const std::vector<ScoredFit>& without,
                                               const ReportedWork& work) {
   const Problem& problem = held_out.problem();
   const Likelihood all_runs(problem, std::vector<bool>(held_out.runs().size(), true));
-  const RankedFit in_all_runs = ranked_fit(all_runs, chosen.candidate, work, {.most_steps = 0});
+  const ScoredFit in_all_runs = scored_fit(all_runs, chosen.candidate, work, {.most_steps = 0});
   const auto with = problem.residuals(chosen.candidate, problem.judged_runs());
   std::vector<EffectEvidence> made;
-  for (const RankedFit& one : without) {
+  for (const ScoredFit& one : without) {
     made.push_back({.score = one.score - chosen.score, .estimation = one.cost - chosen.cost});
   }
   if (!with || !in_all_runs.is_possible()) return made;

@@ -1,4 +1,4 @@
-#include "diagnose/ranked/likelihood.hpp"
+#include "diagnose/search/likelihood.hpp"
 
 #include "diagnose/parallel.hpp"
 #include "measured/spectra/fourier.hpp"

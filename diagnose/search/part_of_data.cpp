@@ -1,4 +1,4 @@
-#include "diagnose/ranked/part_of_data.hpp"
+#include "diagnose/search/part_of_data.hpp"
 
 #include "diagnose/search/coarse.hpp"
 

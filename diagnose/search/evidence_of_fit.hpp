@@ -1,7 +1,7 @@
 #pragma once
 
 #include "diagnose/evidence.hpp"
-#include "diagnose/ranked/ranked_fit.hpp"
+#include "diagnose/search/scored_fit.hpp"
 
 #include <vector>
 
@@ -15,8 +15,8 @@ namespace flexarm::diagnose {
 /// lines of that run alone and the weights of the likelihood of all runs; their agreement is a
 /// chi-squared test over the runs that determine the places of the parameters to less than
 /// kPlaceDeviation.
-std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const RankedFit& chosen,
-                                              const std::vector<RankedFit>& without,
+std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const ScoredFit& chosen,
+                                              const std::vector<ScoredFit>& without,
                                               const ReportedWork& work);
 
 }  // namespace flexarm::diagnose

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "diagnose/ranked/likelihood.hpp"
+#include "diagnose/search/likelihood.hpp"
 #include "diagnose/search/candidate.hpp"
 #include "diagnose/search/reported_work.hpp"
 
@@ -11,7 +11,7 @@
 namespace flexarm::diagnose {
 
 /// A candidate at the maximum of its likelihood on some runs.
-struct RankedFit {
+struct ScoredFit {
   Candidate candidate = {};
   Eigen::VectorXd lines = {};                              ///< Likelihood::lines_of
   Eigen::MatrixXd jacobian = {};                           ///< lines by Candidate::coordinates
@@ -38,7 +38,7 @@ double price(const Hypothesis& effect);
 double price(const Candidate& candidate, const Eigen::MatrixXd& jacobian,
              const Eigen::VectorXd& weights);
 
-struct RankedFitOptions {
+struct ScoredFitOptions {
   int most_steps = 30;
   /// Converged where a step is expected to lower -2 ln L by less than this.
   double tolerance = 0.05;
@@ -50,7 +50,7 @@ struct RankedFitOptions {
 /// [Marquardt1963] and secant updates of the derivatives [Broyden1965], places from 0 to 1. It
 /// begins with the derivatives that `base` has of the same effects. Not `is_possible` where the
 /// start cannot be computed. Throws Cancelled where the work is cancelled.
-RankedFit ranked_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
-                     const RankedFitOptions& options = {}, const RankedFit* base = nullptr);
+ScoredFit scored_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
+                     const ScoredFitOptions& options = {}, const ScoredFit* base = nullptr);
 
 }  // namespace flexarm::diagnose

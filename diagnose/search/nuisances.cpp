@@ -1,4 +1,4 @@
-#include "diagnose/ranked/nuisances.hpp"
+#include "diagnose/search/nuisances.hpp"
 
 #include "diagnose/search/channel_independence.hpp"
 #include "diagnose/search/dependence_test.hpp"

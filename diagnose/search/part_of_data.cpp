@@ -28,7 +28,7 @@ void take_noise(const Problem& whole, const Experiment& part, Observations& obse
   }
 }
 
-Problem part_of(const Problem& whole, std::size_t samples, int most_modes) {
+Problem first_part_of(const Problem& whole, std::size_t samples, int most_modes) {
   auto part = std::make_shared<const Experiment>(coarse(whole.experiment(), samples));
   Observations observations = observe(*part);
   take_noise(whole, *part, observations);
@@ -41,7 +41,7 @@ Problem part_of(const Problem& whole, std::size_t samples, int most_modes) {
 }  // namespace
 
 PartOfData::PartOfData(const Problem& whole, std::size_t samples, int most_modes)
-    : problem_(part_of(whole, samples, most_modes)),
+    : problem_(first_part_of(whole, samples, most_modes)),
       likelihood_(problem_, problem_.estimation_runs(), whole.predictor().flexible_modes()) {}
 
 }  // namespace flexarm::diagnose

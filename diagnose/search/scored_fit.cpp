@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// The difference quotient of a place.
-constexpr double kPlaceStep = 1e-3;
+constexpr double kFitStep = 1e-3;
 /// The longest step of a place.
 constexpr double kLongestStep = 0.35;
 constexpr double kFirstDamping = 1e-3;
@@ -99,7 +99,7 @@ class Derivatives {
       work_.go_on();
       const Index i = columns[k];
       VectorXd beside = here;
-      const double step = here(i) < 0.5 ? kPlaceStep : -kPlaceStep;
+      const double step = here(i) < 0.5 ? kFitStep : -kFitStep;
       beside(i) += step;
       if (const auto moved = likelihood_.lines_of(places_.at(beside))) {
         matrix_.col(i) = (*moved - lines) / step;

@@ -1,7 +1,6 @@
 #include "diagnose/symptoms/band_errors.hpp"
 
 #include "diagnose/search/misfit.hpp"
-#include "diagnose/search/selection.hpp"
 #include "measured/spectra/tail_probability.hpp"
 #include "measured/spectra/window.hpp"
 #include "response/excitation/excitation.hpp"
@@ -187,7 +186,6 @@ std::vector<Symptom> error_symptoms(const SymptomsInput& input,
   std::vector<Symptom> made;
   std::vector<std::string> noise_alone;
   std::vector<std::string> negligible;
-  const double negligible_error = SelectionOptions{}.negligible_error;
   for (const std::string& sensor : sensors) {
     std::vector<const BandError*> own;
     double probability = 1.0;
@@ -201,7 +199,7 @@ std::vector<Symptom> error_symptoms(const SymptomsInput& input,
     found.sensor = sensor;
     const bool is_simulated = own.front()->torque_rms_N_m.has_value();
     if (found.is_significant && is_simulated && !input.has_causes() &&
-        beyond_noise(own) < negligible_error) {
+        beyond_noise(own) < kNegligibleError) {
       negligible.push_back(sensor);
     } else if (found.is_significant) {
       made.push_back(std::move(found));
@@ -217,7 +215,7 @@ std::vector<Symptom> error_symptoms(const SymptomsInput& input,
   add_rest(noise_alone, "residual level consistent with the noise floor in all runs and bands.");
   add_rest(negligible, fmt::format("excess residual below {} of the signal; not interpreted, since "
                                    "integration step and sampling clock cause errors of this size.",
-                                   percent(negligible_error)));
+                                   percent(kNegligibleError)));
   return made;
 }
 

@@ -39,9 +39,13 @@ std::vector<BandError> band_errors(const SymptomsInput& input);
 /// that is as large as `power_ratio` or more: F(freedom, 2/kNoiseKnown^2).
 double noise_probability(double power_ratio, double freedom);
 
+/// Excess residuals below this part of the signal of simulated runs are not interpreted where no
+/// effect was found.
+inline constexpr double kNegligibleError = 0.004;
+
 /// A statement a sensor, and one of the sensors whose error is the noise's. What is beyond noise in
-/// `time` runs by less than the diagnosis neglects (SelectionOptions::negligible_error) is said not
-/// to be significant unless causes were named.
+/// `time` runs by less than kNegligibleError is said not to be significant unless causes were
+/// named.
 std::vector<Symptom> error_symptoms(const SymptomsInput& input,
                                     const std::vector<BandError>& errors);
 

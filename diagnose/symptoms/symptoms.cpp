@@ -1,6 +1,5 @@
 #include "diagnose/symptoms/symptoms.hpp"
 
-#include "diagnose/search/selection.hpp"
 #include "diagnose/symptoms/drift_symptoms.hpp"
 #include "diagnose/symptoms/error_trends.hpp"
 
@@ -30,8 +29,8 @@ Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift,
         add(root_symptoms(made.roots));
       },
       [&] {
-        made.hub_torque = hub_torque(
-            hub_motions(input), input.has_causes() ? 0.0 : SelectionOptions{}.negligible_error);
+        made.hub_torque =
+            hub_torque(hub_motions(input), input.has_causes() ? 0.0 : kNegligibleError);
         add(hub_torque_symptoms(made.hub_torque));
       },
       [&] {

@@ -69,8 +69,8 @@ struct Diagnosis {
   std::vector<PosteriorSet> posterior = {};
   double something_else = 0.0;  ///< posterior probability of it, beside causes or by itself
   PredictorKind predictor = PredictorKind::output_error;  ///< that the causes were named by
-  std::string predictor_reason;  ///< a sentence; empty without `time` runs
-  std::optional<DisturbanceGain> disturbance;  ///< by grey_box
+  std::string predictor_reason;                           ///< a sentence; empty without `time` runs
+  std::optional<DisturbanceGain> disturbance;             ///< by grey_box
   Gain estimation;  ///< by output error, as the residuals and tests below
   std::optional<Gain> validation;
   /// Of the arm file and the extended arm, where a Kalman filter was formed.
@@ -78,11 +78,11 @@ struct Diagnosis {
   ResidualTest estimation_test;  ///< of the extended arm
   ResidualTest validation_test;
   bool is_tested_by_filter = false;  ///< these tests are of prediction errors of a Kalman filter
-  bool converged = false;  ///< the fit of the extended arm
-  int evaluations = 0;     ///< of the simulation in that fit
+  bool converged = false;            ///< the fit of the extended arm
+  int evaluations = 0;               ///< of the simulation in that fit
   std::vector<ChannelGain> channels;
   std::vector<Overlay> overlays;  ///< one a channel
-  Symptoms symptoms;  ///< what is wrong without causes
+  Symptoms symptoms;              ///< what is wrong without causes
   std::vector<RefittedNumber> refitted;
   FormulationCheck formulations;  ///< of the extended arm
   /// What the causes leave of the hub torque, where no effect is it and a law describes it.

@@ -19,7 +19,7 @@ struct DiagnosisRequest {
   std::vector<std::string> accepted = {};  ///< data checks whose faults count as none
   std::optional<double> time_limit_s = {};
   std::optional<int> most_causes = {};  ///< any number unless given
-  std::string predictor = "auto";  ///< or a PredictorKind
+  std::string predictor = "auto";       ///< or a PredictorKind
   arm::OptionSpelling spelled = arm::on_command_line;
 };
 

@@ -27,6 +27,8 @@ constexpr double kRounding = 1e-6;
 constexpr std::array<double, 2> kBaseSizes = {0.3, 0.03};
 /// The part of its least sample of an effect of one parameter.
 constexpr double kSmallSize = 0.1;
+/// The same beside no effect, for what is far below the range it was looked for in.
+constexpr double kSmallestSize = 0.01;
 
 /// Returns the columns of `jacobian` but those by the effect at `index`.
 MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::size_t index) {
@@ -39,8 +41,10 @@ MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::siz
 }
 
 /// Returns groups of values of an effect to look at (start_places.hpp), and of small parts of its
-/// sizes: of one parameter one group, of several one with each size.
-std::vector<std::vector<StartPlaces>> groups_of_samples(const Hypothesis& effect) {
+/// sizes: of one parameter one group, of several one with each size. Beside no effect another group
+/// is of one parameter's whole range: far from the value at which an effect does nothing its change
+/// says little of its size.
+std::vector<std::vector<StartPlaces>> groups_of_samples(const Hypothesis& effect, bool is_alone) {
   const std::vector<StartPlaces> samples = samples_of(effect);
   const auto of_size = [&](const StartPlaces& sample, double size) {
     return places_of(effect, values_at(effect, sample, size));
@@ -50,6 +54,11 @@ std::vector<std::vector<StartPlaces>> groups_of_samples(const Hypothesis& effect
   if (effect.parameters.size() == 1) {
     groups.push_back(samples);
     groups.back().push_back(of_size(samples.front(), kSmallSize));
+    if (is_alone) {
+      auto& group = groups.emplace_back();
+      for (const double place : kEvenPlaces) group.push_back({place});
+      group.push_back(of_size(samples.front(), kSmallestSize));
+    }
     return groups;
   }
   for (const double size : kBaseSizes) {
@@ -57,6 +66,41 @@ std::vector<std::vector<StartPlaces>> groups_of_samples(const Hypothesis& effect
     for (const StartPlaces& sample : samples) group.push_back(of_size(sample, size));
   }
   return groups;
+}
+
+/// Returns places of an effect in the place of another one at `values`, where one of the two is a
+/// limit of the other: parameters that both have as they are, others over their ranges. Empty where
+/// neither is, or they have no parameter in common.
+std::vector<StartPlaces> samples_in_place(const Hypothesis& effect, const Hypothesis& other,
+                                          const std::vector<double>& values) {
+  if (!effect.contains(other.effect) && !other.contains(effect.effect)) return {};
+  std::vector<StartPlaces> samples = {{}};
+  bool has_common = false;
+  for (const SearchedParameter& parameter : effect.parameters) {
+    const auto same = std::ranges::find(other.parameters, parameter.name, &SearchedParameter::name);
+    std::vector<double> places = kSpreadPlaces;
+    if (same != other.parameters.end() && !parameter.above_previous) {
+      const auto at = static_cast<std::size_t>(same - other.parameters.begin());
+      places = {parameter.coordinate(values[at])};
+      has_common = true;
+    }
+    std::vector<StartPlaces> longer;
+    for (const StartPlaces& sample : samples) {
+      for (const double place : places) {
+        longer.push_back(sample);
+        longer.back().push_back(place);
+      }
+    }
+    samples = std::move(longer);
+  }
+  return has_common ? samples : std::vector<StartPlaces>{};
+}
+
+/// Returns whether what one of two effects changes depends on the other: they act at one place, or
+/// one is a limit of the other.
+bool depend_on_each_other(const Hypothesis& one, const Hypothesis& other) {
+  return one.entry->family == other.entry->family || one.contains(other.effect) ||
+         other.contains(one.effect);
 }
 
 /// A set that an effect may be added to, as the weighted lines have it.
@@ -146,23 +190,28 @@ class Neighbourhood {
       if (!without_[i]) continue;
       if (own[i].label() == effect.label()) return {};
       is_new = is_new && own[i].effect != effect.effect;
-      if (own[i].entry->family == effect.entry->family) {
-        look_beside(*without_[i], effect, {i}, made);
+      if (depend_on_each_other(own[i], effect)) {
+        auto groups = groups_of_samples(effect, own.size() == 1);
+        groups.push_back(samples_in_place(effect, own[i], base_.candidate.values_of(i)));
+        look_beside(*without_[i], effect, groups, {i}, made);
       } else {
         additive.push_back(i);
       }
     }
     additive.push_back(own.size());
-    if (is_new) look_beside(*whole_, effect, additive, made);
+    if (is_new) {
+      look_beside(*whole_, effect, groups_of_samples(effect, own.empty()), additive, made);
+    }
     return made;
   }
 
  private:
-  /// Adds the best moves with this effect to `made`: as many of each group of samples as it has
+  /// Adds the best moves with this effect to `made`: as many of each group of places as it has
   /// parameters, for each of the effects in `dropped`. What it changes is computed beside `ground`.
   void look_beside(const Ground& ground, const Hypothesis& effect,
+                   const std::vector<std::vector<StartPlaces>>& groups,
                    const std::vector<std::size_t>& dropped, std::vector<Move>& made) const {
-    for (const auto& samples : groups_of_samples(effect)) {
+    for (const auto& samples : groups) {
       std::vector<std::vector<Move>> moves(dropped.size());
       for (const StartPlaces& places : samples) {
         const auto values = effects::values_at(effect.parameters, places);

@@ -28,9 +28,9 @@ struct Move {
 /// makes of them, a its size and P = I - J J^+ what refitting the others leaves, the lines after
 /// the move are P(y + a c), the size that of their least squares. The score is that of the
 /// likelihood of these lines, in which the noise is estimated again. c is taken beside the whole
-/// set, so that it serves all swaps but those within a family: effects of a family act at one
-/// place, and what one of them changes depends on the others. Throws Cancelled where the work is
-/// cancelled.
+/// set, so that it serves all swaps but those of effects that depend on each other: of one family,
+/// which act at one place, and of an effect and a limit of it. There a swap also begins at the
+/// values of the parameters that both have. Throws Cancelled where the work is cancelled.
 std::vector<Move> moves_of(const Likelihood& likelihood, const ScoredFit& base,
                            const std::vector<Hypothesis>& others, const ReportedWork& work);
 

@@ -149,7 +149,7 @@ bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
 /// simulation. Where that does not leave noise, noise of the torque is tried
 /// beside the effects that it names, or, where it names none, the other predictors.
 PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
-                                   const DiagnosisProgress& progress) {
+                                  const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
     return select_with_torque_noise({effects, task.options}, problem, part_of(progress, from, to));
   };

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "diagnose/search/likelihood.hpp"
 #include "diagnose/search/candidate.hpp"
+#include "diagnose/search/likelihood.hpp"
 #include "diagnose/search/reported_work.hpp"
 
 #include <Eigen/Core>

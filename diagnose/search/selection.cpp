@@ -3,8 +3,8 @@
 #include "diagnose/parallel.hpp"
 #include "diagnose/search/evidence_of_fit.hpp"
 #include "diagnose/search/nuisances.hpp"
-#include "diagnose/search/set_search.hpp"
 #include "diagnose/search/rivals.hpp"
+#include "diagnose/search/set_search.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -64,7 +64,7 @@ Explanation explained(const Problem& problem, const ScoredFit& made, bool has_de
 /// Returns the sets of a problem whose noise is as the best of them shows it: where the data alone
 /// show a higher level, at which a search ended too early, it is made again.
 FoundSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
-                  const SelectionOptions& options, ReportedWork& work) {
+                 const SelectionOptions& options, ReportedWork& work) {
   SetSearchOptions how_far;
   if (options.most_causes) how_far.most_effects = static_cast<std::size_t>(*options.most_causes);
   const Likelihood likelihood(problem, problem.estimation_runs());
@@ -90,9 +90,8 @@ Candidate without_timing(Candidate set) {
 
 /// Searches again with corrected torques, where their timing explains much of what the first search
 /// leaves; the sets of both are `made`'s where that leaves noise.
-void search_with_timing(Selection& made, FoundSets& sets,
-                        const std::vector<Hypothesis>& hypotheses, const SelectionOptions& options,
-                        ReportedWork& work) {
+void search_with_timing(Selection& made, FoundSets& sets, const std::vector<Hypothesis>& hypotheses,
+                        const SelectionOptions& options, ReportedWork& work) {
   const Candidate& best = sets.best.front().candidate;
   const Candidate untimed = without_timing(best);
   auto timed = with_timing(made.problem, untimed, options);
@@ -238,7 +237,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
 }  // namespace
 
 Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
-                           const SelectionOptions& options, const DiagnosisProgress& progress) {
+                 const SelectionOptions& options, const DiagnosisProgress& progress) {
   Selection made{problem};
   made.hypotheses = hypotheses.size();
   ReportedWork work(progress, options.deadline);

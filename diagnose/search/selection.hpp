@@ -30,8 +30,8 @@ struct Selection {
   Explanation nothing = {};               ///< no cause; the arm's uncertain numbers refitted
   std::vector<Explanation> singles = {};  ///< hypotheses by themselves, the best first
   std::vector<Explanation> combinations =
-      {};                                ///< of two effects or more, those tried; the best first
-  Explanation chosen = {};               ///< `nothing`, or with the causes
+      {};                   ///< of two effects or more, those tried; the best first
+  Explanation chosen = {};  ///< `nothing`, or with the causes
   /// The chosen one with a cause exchanged for one that is indistinguishable from it (rivals.hpp).
   std::vector<Explanation> rivals = {};
   std::optional<TorqueTiming> timing = {};  ///< by which torques were corrected
@@ -56,7 +56,6 @@ struct Selection {
 /// After the deadline: the best so far; where that is nothing, the arm as filed. Throws Cancelled
 /// after options.last.
 Selection select(const Problem& problem, const std::vector<Hypothesis>& hypotheses,
-                 const SelectionOptions& options = {},
-                 const DiagnosisProgress& progress = {});
+                 const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
 
 }  // namespace flexarm::diagnose

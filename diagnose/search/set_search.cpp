@@ -261,7 +261,7 @@ std::size_t longest_run(const Experiment& experiment) {
 }  // namespace
 
 FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-                         const SetSearchOptions& options, ReportedWork& work) {
+                      const SetSearchOptions& options, ReportedWork& work) {
   const Problem& problem = likelihood.problem();
   FoundSets made;
   std::vector<ScoredFit> beam;

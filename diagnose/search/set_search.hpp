@@ -53,6 +53,6 @@ struct FoundSets {
 /// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
 /// Cancelled where the work is cancelled otherwise.
 FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-                         const SetSearchOptions& options, ReportedWork& work);
+                      const SetSearchOptions& options, ReportedWork& work);
 
 }  // namespace flexarm::diagnose

@@ -11,9 +11,6 @@ namespace {
 constexpr double kLeastSize = 0.25;
 constexpr double kMostSize = 2.5;
 constexpr double kMiddle = 0.5;
-/// Middles of ten equal parts of a range.
-const std::vector<double> kEvenPlaces = {0.05, 0.15, 0.25, 0.35, 0.45,
-                                         0.55, 0.65, 0.75, 0.85, 0.95};
 
 /// Places in the range of its one parameter. Beside a value within the range at which it does
 /// nothing: next to it the change is its direction, and further off, on either side, that of an

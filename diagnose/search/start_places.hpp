@@ -12,6 +12,9 @@ using StartPlaces = std::vector<double>;
 
 /// Places over a range.
 inline const std::vector<double> kSpreadPlaces = {0.15, 0.5, 0.85};
+/// Middles of ten equal parts of a range.
+inline const std::vector<double> kEvenPlaces = {0.05, 0.15, 0.25, 0.35, 0.45,
+                                                0.55, 0.65, 0.75, 0.85, 0.95};
 
 /// Returns a few values of a hypothesis' parameters to look at: of one parameter near the value at
 /// which it does nothing and over its range; of several over their ranges, the size at its middle.

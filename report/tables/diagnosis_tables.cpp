@@ -120,7 +120,8 @@ std::string no_name_reason(const diagnose::Diagnosis& diagnosis) {
   }
   const diagnose::NearMiss& best = diagnosis.near_misses.front();
   return fmt::format(
-      "no effect is identified. The most probable set, {} ({:.2g}), does not predict the validation "
+      "no effect is identified. The most probable set, {} ({:.2g}), does not predict the "
+      "validation "
       "runs better than the arm as filed",
       best.effects, best.probability);
 }

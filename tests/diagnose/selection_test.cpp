@@ -85,7 +85,7 @@ TEST(Selection, IsCancelledByTheProgress) {
   const Experiment experiment =
       simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.02}})});
   const Selection made = select(Problem(experiment), named(experiment, kTested), {},
-                                          [](std::string_view, double) { return false; });
+                                [](std::string_view, double) { return false; });
   EXPECT_TRUE(made.cancelled);
 }
 

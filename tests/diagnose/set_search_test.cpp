@@ -1,6 +1,7 @@
+#include "diagnose/search/set_search.hpp"
+
 #include "diagnose/search/evidence_of_fit.hpp"
 #include "diagnose/search/moves.hpp"
-#include "diagnose/search/set_search.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
@@ -213,9 +214,9 @@ TEST(SetSearch, FindsTheShapeOfAnEffectThatSeveralSimpleOnesImitate) {
   ReportedWork work({});
   const FoundSets sets =
       search_sets(likelihood,
-                    named(experiment, {"tuned_mass", "hub_inertia", "beam_length", "linear_density",
-                                       "payload_mass", "flexural_rigidity", "root_compliance"}),
-                    {}, work);
+                  named(experiment, {"tuned_mass", "hub_inertia", "beam_length", "linear_density",
+                                     "payload_mass", "flexural_rigidity", "root_compliance"}),
+                  {}, work);
   const Candidate& best = sets.best.front().candidate;
   ASSERT_EQ(best.label(), "tuned_mass");
   EXPECT_NEAR(best.values[1], 30.0, 1.0);

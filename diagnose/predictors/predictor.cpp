@@ -313,8 +313,9 @@ std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
 // to 1.2 times what it says.
 constexpr double kMotionDoubt = 1.2;
 
-std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
-                                     int flexible_modes, const arm::Deadline& deadline) {
+Eigen::VectorXd change_by_motion_error(const Experiment& experiment,
+                                       const Observations& observations, int flexible_modes,
+                                       const arm::Deadline& deadline) {
   Experiment displaced = experiment;
   for (auto& [sensor, noise, motion, error] : displaced.motions) {
     motion.angle_rad += error.angle_rad;
@@ -323,21 +324,27 @@ std::vector<double> errors_of_motion(const Experiment& experiment, const Observa
       motion.acceleration_rad_per_s2[k] += error.acceleration_rad_per_s2[k];
     }
   }
-  std::vector<double> made(observations.channels.size(), 0.0);
   const std::vector<bool> all(experiment.runs.size(), true);
   try {
-    const Eigen::VectorXd off =
-        Predictor(displaced, observations, flexible_modes, {}, deadline)(experiment.arm, all) -
-        Predictor(experiment, observations, flexible_modes, {}, deadline)(experiment.arm, all);
-    for (std::size_t c = 0; c < made.size(); ++c) {
-      const ObservedChannel& channel = observations.channels[c];
-      const auto signal = observations.values.segment(channel.first, channel.count).array();
-      made[c] = kMotionDoubt * off.segment(channel.first, channel.count).norm() /
-                (signal - signal.mean()).matrix().norm();
-    }
+    return kMotionDoubt *
+           (Predictor(displaced, observations, flexible_modes, {}, deadline)(experiment.arm, all) -
+            Predictor(experiment, observations, flexible_modes, {}, deadline)(experiment.arm, all));
   } catch (const std::runtime_error&) {
     // An arm that is none, or a simulation that overflows.
   } catch (const arm::Cancelled&) {
+  }
+  return Eigen::VectorXd::Zero(observations.values.size());
+}
+
+std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
+                                     int flexible_modes, const arm::Deadline& deadline) {
+  const Eigen::VectorXd off =
+      change_by_motion_error(experiment, observations, flexible_modes, deadline);
+  std::vector<double> made;
+  for (const ObservedChannel& channel : observations.channels) {
+    const auto signal = observations.values.segment(channel.first, channel.count).array();
+    made.push_back(off.segment(channel.first, channel.count).norm() /
+                   (signal - signal.mean()).matrix().norm());
   }
   return made;
 }

@@ -157,9 +157,13 @@ inline constexpr double kModeError = 1e-4;
 inline constexpr int kFewestModes = 4;
 inline constexpr int kMostModes = 16;
 
-/// Of an experiment that is driven by motion: what the error of the motion (MeasuredMotion::error)
-/// adds to what the arm as filed shows, of each channel the root mean square over the deviation of
-/// the measured signal. Of an arm that cannot be computed, and after the deadline, 0.
+/// Returns what the error of the motion (MeasuredMotion::error) adds to what the arm as filed
+/// shows, of an experiment that is driven by motion: a value a number of the observations, in its
+/// unit; 0 of an arm that cannot be computed, and after the deadline.
+Eigen::VectorXd change_by_motion_error(const Experiment& experiment,
+                                       const Observations& observations, int flexible_modes,
+                                       const arm::Deadline& deadline);
+/// Returns the root mean square of that over the deviation of the measured signal, one a channel.
 std::vector<double> errors_of_motion(const Experiment& experiment, const Observations& observations,
                                      int flexible_modes, const arm::Deadline& deadline = {});
 

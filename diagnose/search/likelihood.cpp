@@ -144,6 +144,20 @@ VectorXd truncation_of(const Problem& problem, std::vector<bool> runs, int modes
   return *with_own - *with_more;
 }
 
+/// Returns the change of the residuals by the error of the measured motion, of an arm that is
+/// driven by it; else 0. Noise of the motion excites the simulated resonances: damping that the arm
+/// does not have would be found by what it takes from them.
+VectorXd motion_error_of(const Problem& problem) {
+  if (!is_driven_by_motion(problem.experiment())) return VectorXd::Zero(problem.residual_count());
+  const Observations& observations = problem.observations();
+  VectorXd made = VectorXd::Zero(problem.residual_count());
+  made.head(observations.values.size()) =
+      change_by_motion_error(problem.experiment(), observations,
+                             problem.predictor().flexible_modes(), problem.predictor().deadline())
+          .cwiseQuotient(observations.deviations);
+  return made;
+}
+
 }  // namespace
 
 Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
@@ -152,8 +166,9 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
 Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
-  const VectorXd truncation =
-      lines(truncation_of(problem, runs_, flexible_modes + kFurtherModes)).cwiseAbs2();
+  const VectorXd known =
+      lines(truncation_of(problem, runs_, flexible_modes + kFurtherModes)).cwiseAbs2() +
+      lines(motion_error_of(problem)).cwiseAbs2();
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     const auto& data = problem.experiment().runs[channel.run].data;
@@ -181,7 +196,7 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
       const double followed =
           kDiscrepancy * kDiscrepancy * signal.segment(first, count).squaredNorm();
       bands_.push_back({channel.first + first, count,
-                        truncation.segment(channel.first + first, count).sum() + followed});
+                        known.segment(channel.first + first, count).sum() + followed});
       end = first;
     }
   }

@@ -160,10 +160,11 @@ VectorXd motion_error_of(const Problem& problem) {
 
 }  // namespace
 
-Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
-    : Likelihood(problem, std::move(runs), problem.predictor().flexible_modes()) {}
+Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, SampleSize sample_size)
+    : Likelihood(problem, std::move(runs), problem.predictor().flexible_modes(), sample_size) {}
 
-Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes)
+Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes,
+                       SampleSize sample_size)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
   const VectorXd known =
@@ -200,6 +201,17 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
       end = first;
     }
   }
+  bands_ = with(sample_size).bands_;
+}
+
+Likelihood Likelihood::with(SampleSize sample_size) const {
+  Likelihood made = *this;
+  for (Band& band : made.bands_) {
+    const auto n = static_cast<double>(band.count);
+    const bool is_of_noise = sample_size == SampleSize::of_noise && !band.is_stated;
+    band.sample_size = is_of_noise ? n : band.is_stated ? kSampleSize : std::min(n, kSampleSize);
+  }
+  return made;
 }
 
 VectorXd Likelihood::lines(const VectorXd& residuals) const {
@@ -229,19 +241,15 @@ double Likelihood::cost_of(const Candidate& candidate) const {
   return lines ? cost(*lines) : std::numeric_limits<double>::infinity();
 }
 
-double Likelihood::Band::sample_size() const {
-  return is_stated ? kSampleSize : std::min(static_cast<double>(count), kSampleSize);
-}
-
 double Likelihood::Band::cost(double sum) const {
-  const double m = sample_size();
+  const double m = sample_size;
   const auto n = static_cast<double>(count);
   if (!is_stated) return m * std::log((added + sum) / n);
   return sum <= n ? sum : n + m * std::log1p((sum - n) / m);
 }
 
 double Likelihood::Band::slope(double sum) const {
-  const double m = sample_size();
+  const double m = sample_size;
   const auto n = static_cast<double>(count);
   if (!is_stated) return m / (added + sum);
   return sum <= n ? 1.0 : m / (m + sum - n);

@@ -9,6 +9,10 @@
 
 namespace flexarm::diagnose {
 
+/// The effective sample size of an octave of a `time` run: that of what a model gets wrong, or that
+/// of noise (Likelihood).
+enum class SampleSize { of_model_error, of_noise };
+
 /// The predictive likelihood of an experiment's runs, with a noise level and colour of each channel
 /// that are estimated from the residuals themselves.
 ///
@@ -18,13 +22,14 @@ namespace flexarm::diagnose {
 /// fall into octaves of frequency; within an octave the noise is white. With S_b the sum of squares
 /// of the n_b lines of a band
 ///
-///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b),    m_b = min(n_b, kSampleSize)
+///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b)
 ///
 /// up to a constant. a_b are the squares of what the simulation itself errs by: its truncation,
 /// which is the change that further modes make of the arm as filed, and kDiscrepancy of the signal
-/// in that band. m_b is the effective sample size of a band: what a model gets wrong is a smooth
-/// function of frequency times the signal, so that its lines are no more independent of each other
-/// the more of them a record has.
+/// in that band. m_b is the effective sample size of a band (SampleSize): what a model gets wrong
+/// is a smooth function of frequency times the signal, so that its lines are no more independent of
+/// each other the more of them a record has, and m_b = min(n_b, kSampleSize). Lines of noise are
+/// independent, m_b = n_b: between sets that both leave noise these decide.
 ///
 /// Lines of responses and entries of modal tables have stated deviations. A channel of them is one
 /// band: noise, and an error of the model that has m degrees of freedom,
@@ -41,10 +46,12 @@ class Likelihood {
   static constexpr double kSampleSize = 8.0;
 
   /// Takes the `runs` of the problem, which must outlive the object.
-  Likelihood(const Problem& problem, std::vector<bool> runs);
+  Likelihood(const Problem& problem, std::vector<bool> runs,
+             SampleSize sample_size = SampleSize::of_model_error);
   /// Takes a problem with fewer flexible modes than the `flexible_modes` that are needed: the
   /// truncation is judged by those.
-  Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes);
+  Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes,
+             SampleSize sample_size = SampleSize::of_model_error);
 
   const Problem& problem() const { return problem_; }
   const std::vector<bool>& runs() const { return runs_; }
@@ -54,6 +61,9 @@ class Likelihood {
 
   /// Returns the lines of a candidate's residuals; empty where its arm cannot be computed.
   std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const;
+
+  /// Returns the same with another sample size of its octaves.
+  Likelihood with(SampleSize sample_size) const;
 
   /// Returns -2 ln L of a candidate; infinite where its arm cannot be computed.
   double cost_of(const Candidate& candidate) const;
@@ -72,10 +82,10 @@ class Likelihood {
   struct Band {
     Eigen::Index first = 0;
     Eigen::Index count = 0;
-    double added = 0.0;      ///< a_b
-    bool is_stated = false;  ///< its deviations are
+    double added = 0.0;        ///< a_b
+    bool is_stated = false;    ///< its deviations are
+    double sample_size = 0.0;  ///< m_b
 
-    double sample_size() const;
     double cost(double sum) const;
     /// The derivative of the cost by the sum of squares.
     double slope(double sum) const;

@@ -135,6 +135,7 @@ class Ground {
     const double determined = parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
     return {.added = &effect,
             .values = values_at(effect, places, size),
+            .step = -refitted_.step(roots_.cwiseProduct(lines_ + size * change)),
             .score = likelihood_.cost(predicted) + price_ + price(effect) + determined};
   }
 
@@ -252,8 +253,9 @@ class Neighbourhood {
 
 }  // namespace
 
-Candidate Move::of(const Candidate& set) const {
-  const Candidate rest = dropped ? set.without(*dropped) : set;
+Candidate Move::of(const Candidate& set, bool is_refitted) const {
+  Candidate rest = dropped ? set.without(*dropped) : set;
+  if (is_refitted && step.size() > 0) rest.put(rest.coordinates() + step);
   return added != nullptr ? rest.with(*added, values) : rest;
 }
 

@@ -2,6 +2,8 @@
 
 #include "diagnose/search/scored_fit.hpp"
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -13,9 +15,12 @@ struct Move {
   std::optional<std::size_t> dropped = {};  ///< index of the effects of the set
   const Hypothesis* added = nullptr;
   std::vector<double> values = {};  ///< of the added effect, to begin a fit with
+  Eigen::VectorXd step = {};        ///< predicted, of the coordinates of the effects that stay
   double score = 0.0;               ///< predicted ScoredFit::score of the fit
 
-  Candidate of(const Candidate& set) const;
+  /// Returns the set after the move; the effects that stay have their values, or with `is_refitted`
+  /// those that are predicted.
+  Candidate of(const Candidate& set, bool is_refitted = false) const;
 };
 
 /// Returns all moves of `base`, those with the lowest predicted score first: of each effect of

@@ -20,6 +20,13 @@ class RefitProjection {
     return derivatives_.householderQ() * beyond;
   }
 
+  /// Returns J^+ x: minus the step of the parameters by which a refit answers `change`. Parameters
+  /// that the derivatives hardly determine take a step of any size.
+  Eigen::VectorXd step(const Eigen::VectorXd& change) const {
+    if (parameters_ == 0) return Eigen::VectorXd();
+    return derivatives_.solve(change);
+  }
+
  private:
   Eigen::HouseholderQR<Eigen::MatrixXd> derivatives_;
   Eigen::Index parameters_;

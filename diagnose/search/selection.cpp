@@ -204,10 +204,10 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   if (!sets.is_complete) made.end = SearchEnd{kStage, labels_beside(best, hypotheses)};
   in_time([&] {
     const Problem searched = made.problem;
-    const Likelihood likelihood(searched, searched.estimation_runs());
+    const Likelihood likelihood(searched, searched.estimation_runs(), sets.sample_size);
     filed = scored_fit(likelihood, searched.as_filed(), work);
     see_noise(made.problem, best, filed, work);
-    const Likelihood held_out(searched, searched.validation_runs());
+    const Likelihood held_out(searched, searched.validation_runs(), sets.sample_size);
     without = drop_by_validation(likelihood, held_out, best, work);
     made.evidence = evidence_for_each(held_out, best, without, work);
   });
@@ -218,7 +218,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   }
   made.problem = made.problem.until({});
   if (!filed.is_possible()) {
-    const Likelihood likelihood(made.problem, made.problem.estimation_runs());
+    const Likelihood likelihood(made.problem, made.problem.estimation_runs(), sets.sample_size);
     filed = scored_fit(likelihood, made.problem.as_filed(), work);
   }
   const Problem& problem = made.problem;

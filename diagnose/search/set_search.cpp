@@ -35,7 +35,8 @@ constexpr std::size_t kStartsOfOne = 3;
 constexpr std::size_t kRivalsOfOne = 2;
 
 /// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
-enum class Climb { to_noise, to_the_end };
+/// Exchanges do not make a set larger.
+enum class Climb { to_noise, to_the_end, exchanges };
 
 bool leaves_noise(const Likelihood& likelihood, const ScoredFit& set) {
   return set.is_possible() && likelihood.is_noise(set.lines);
@@ -88,23 +89,28 @@ class Rung {
   }
 
   /// Returns fits of the most likely swaps of a set whose score is `near` that of the set on these
-  /// data, or lower; of the empty set those of the most likely effects. For each effect the
-  /// kRivalsOfOne that are predicted to be best are tried, of one family one, whatever is
-  /// predicted: near noise the prediction, which is linear, is too high by much.
+  /// data, or lower; of the empty set those of the most likely effects. Tried are those that are
+  /// predicted to be near, and, since the prediction is linear and near noise too high by much, for
+  /// each effect all of its family, and the best of the kRivalsOfOne families that are best.
   std::vector<ScoredFit> rivals(const Candidate& set) {
     const ScoredFit base = fitted(set);
     if (!base.is_possible()) return {};
     const bool is_empty = set.effects.empty();
     std::vector<Move> swaps = moves_from(base);
-    std::map<std::size_t, std::set<effects::Family>> met;
+    std::map<std::size_t, std::set<effects::Family>> families;
+    std::set<Labels> tried;
     std::erase_if(swaps, [&](const Move& one) {
       if (one.added == nullptr || one.dropped.has_value() == is_empty) return true;
-      auto& families = met[one.dropped.value_or(0)];
-      return families.size() == kRivalsOfOne || !families.insert(one.added->entry->family).second;
+      if (!tried.insert(one.of(set).labels()).second) return true;
+      if (one.score <= base.score + options_.near) return false;
+      const effects::Family family = one.added->entry->family;
+      if (!is_empty && set.effects[*one.dropped].entry->family == family) return false;
+      auto& met = families[one.dropped.value_or(0)];
+      return met.size() == kRivalsOfOne || !met.insert(family).second;
     });
     std::vector<ScoredFit> made(swaps.size());
     in_parallel(swaps.size(), [&](std::size_t i) {
-      made[i] = scored_fit(likelihood_, swaps[i].of(base.candidate), work_, kLook, &base);
+      made[i] = scored_fit(likelihood_, start_of(swaps[i], base), work_, kLook, &base);
     });
     std::erase_if(made, [&](const ScoredFit& one) {
       const bool is_near = is_empty || one.score <= base.score + options_.near;
@@ -166,7 +172,8 @@ class Rung {
     std::vector<Move> moves = moves_from(base);
     std::size_t looks = 0;
     std::set<Labels> new_sets;
-    const bool is_full = base.candidate.effects.size() >= options_.most_effects;
+    const bool is_full =
+        end_ == Climb::exchanges || base.candidate.effects.size() >= options_.most_effects;
     std::erase_if(moves, [&](const Move& one) {
       if (is_full && one.added != nullptr && !one.dropped) return true;
       const bool is_broad = kind == Looks::broad && one.added != nullptr && !one.dropped &&
@@ -185,12 +192,23 @@ class Rung {
     return moves;
   }
 
+  /// Returns the set that a move leads to. In an exchange the effects that stay begin at the values
+  /// that a refit is predicted to give them, where these are nearer to the data: they may have been
+  /// answers to what is dropped.
+  Candidate start_of(const Move& move, const ScoredFit& base) const {
+    Candidate start = move.of(base.candidate);
+    if (move.added == nullptr || !move.dropped || move.step.size() == 0) return start;
+    Candidate refitted = move.of(base.candidate, true);
+    work_.go_on();
+    return likelihood_.cost_of(refitted) < likelihood_.cost_of(start) ? refitted : start;
+  }
+
   /// Returns fits of the moves of `base` (looked_at): those of the lowest score after a first look.
   std::vector<ScoredFit> neighbours_of(const ScoredFit& base, Looks looks) {
     const std::vector<Move> moves = looked_at(base, looks);
     std::vector<ScoredFit> fits(moves.size());
     in_parallel(moves.size(), [&](std::size_t i) {
-      fits[i] = scored_fit(likelihood_, moves[i].of(base.candidate), work_, kFirstLook, &base);
+      fits[i] = scored_fit(likelihood_, start_of(moves[i], base), work_, kFirstLook, &base);
     });
     std::erase_if(fits, [](const ScoredFit& one) { return !one.is_possible(); });
     keep_best(fits, options_.looks, kStartsOfOne);
@@ -230,20 +248,30 @@ std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
 }
 
 /// Adds the rivals of the best set (Rung::rivals) that do nearly as well on a part of the data to
-/// the beam, fitted to all data.
-void add_rivals(const Likelihood& likelihood, const Likelihood& part,
+/// the beam, fitted to all data. Where that set leaves noise (`exchanges`), its effects are first
+/// exchanged for others on the part, and the beam is what comes of it.
+void add_rivals(const Likelihood& likelihood, const Likelihood& part, bool exchanges,
                 const std::vector<Hypothesis>& hypotheses, const SetSearchOptions& options,
                 const ReportedWork& work, std::vector<ScoredFit>& beam) {
-  const std::vector<ScoredFit> rivals =
-      Rung(part, hypotheses, options, work, Climb::to_the_end).rivals(beam.front().candidate);
-  std::vector<ScoredFit> fits(rivals.size());
-  in_parallel(fits.size(), [&](std::size_t i) {
-    fits[i] = scored_fit(likelihood, rivals[i].candidate, work, kLook);
+  Rung rung(part, hypotheses, options, work, Climb::exchanges);
+  std::vector<ScoredFit> near;
+  Candidate best = beam.front().candidate;
+  if (exchanges) {
+    near = beam;
+    rung.fit(near);
+    rung.climb(near, options.beam, Looks::predicted);
+    best = near.front().candidate;
+    near.push_back(beam.front());
+  }
+  std::ranges::move(rung.rivals(best), std::back_inserter(near));
+  in_parallel(near.size(), [&](std::size_t i) {
+    near[i] = scored_fit(likelihood, near[i].candidate, work, kLook);
   });
-  std::erase_if(fits, [](const ScoredFit& one) { return !one.is_possible(); });
-  std::ranges::move(fits, std::back_inserter(beam));
-  std::ranges::stable_sort(beam, {}, &ScoredFit::score);
-  beam.front() = scored_fit(likelihood, beam.front().candidate, work);
+  std::erase_if(near, [](const ScoredFit& one) { return !one.is_possible(); });
+  if (!exchanges) std::ranges::move(beam, std::back_inserter(near));
+  std::ranges::stable_sort(near, {}, &ScoredFit::score);
+  near.front() = scored_fit(likelihood, near.front().candidate, work);
+  beam = std::move(near);
 }
 
 /// Returns the number of samples of the longest `time` run for estimation; 0 without any.
@@ -308,15 +336,18 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     }
     work.tell("effects on all data", 0.5);
     climb(likelihood, width, Climb::to_the_end);
-    const ScoredFit& best = beam.front();
-    if (best.candidate.effects.empty() && leaves_noise(likelihood, best)) return {std::move(beam)};
+    const bool is_noise = leaves_noise(likelihood, beam.front());
+    if (is_noise && beam.front().candidate.effects.empty()) return {std::move(beam)};
     work.tell("rivals of the effects that were found", 0.8);
+    const auto sample_size = is_noise ? SampleSize::of_noise : SampleSize::of_model_error;
+    const Likelihood whole = likelihood.with(sample_size);
     if (options.rungs[1] < longest) {
-      const PartOfData part(problem, options.rungs[1], options.coarse_modes);
-      add_rivals(likelihood, part.likelihood(), hypotheses, options, work, beam);
+      const PartOfData part(problem, options.rungs[1], options.coarse_modes, sample_size);
+      add_rivals(whole, part.likelihood(), is_noise, hypotheses, options, work, beam);
     } else {
-      add_rivals(likelihood, likelihood, hypotheses, options, work, beam);
+      add_rivals(whole, whole, is_noise, hypotheses, options, work, beam);
     }
+    made.sample_size = sample_size;
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;

@@ -36,6 +36,8 @@ struct FoundSets {
   /// effect exchanged for another, one of a family; where the best has no effects, single ones.
   std::vector<ScoredFit> best = {};
   bool is_complete = true;  ///< fitted to all estimation runs
+  /// The sample size that the scores are of.
+  SampleSize sample_size = SampleSize::of_model_error;
 };
 
 /// Searches the set of effects with the lowest score (scored_fit.hpp): on a ladder of ever more
@@ -48,7 +50,9 @@ struct FoundSets {
 ///   one effect by itself left noise; the best of what these and the rung below found goes on;
 /// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
 /// - the next rung has a part of the effects, those that do best and those of the families of the
-///   set.
+///   set;
+/// - where the best set leaves noise, exchanges of one effect for another are tried among all
+///   effects with the sample size of noise: of sets that all leave noise, that decides.
 ///
 /// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
 /// Cancelled where the work is cancelled otherwise.

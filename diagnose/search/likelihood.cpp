@@ -154,7 +154,7 @@ VectorXd motion_error_of(const Problem& problem) {
   made.head(observations.values.size()) =
       change_by_motion_error(problem.experiment(), observations,
                              problem.predictor().flexible_modes(), problem.predictor().deadline())
-          .cwiseQuotient(observations.deviations);
+          .cwiseQuotient(observations.deviations) * 2.0;
   return made;
 }
 

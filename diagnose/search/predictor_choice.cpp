@@ -18,6 +18,9 @@ namespace {
 /// A simulation that errs less than this more than another is about as good.
 constexpr double kAbout = 1.05;
 
+/// NRMSE of a simulation that predicts little, with what it names.
+constexpr double kUseless = 0.5;
+
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
 
@@ -146,8 +149,8 @@ bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
 }
 
 /// Selects with noise of the recorded torque where that leaves noise beside no effect, else by
-/// simulation. Where that does not leave noise, noise of the torque is tried
-/// beside the effects that it names, or, where it names none, the other predictors.
+/// simulation. Where that does not leave noise, noise of the torque is tried beside the effects
+/// that it names, and then the other predictors.
 PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
@@ -165,9 +168,13 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
   const std::vector<Hypothesis> named = made.selection.chosen.fit.candidate.effects;
   try {
     require_time(task.options.deadline);
-    if (named.empty()) return select_beyond_simulation(made, task, progress);
-    if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
-    made.reason = "others are tried where a simulation names nothing";
+    if (!named.empty()) {
+      if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
+    }
+    if (named.empty() || simulated_error(made) > kUseless) {
+      return select_beyond_simulation(made, task, progress);
+    }
+    made.reason = "others are tried where a simulation names nothing, or leaves half of the signal";
   } catch (const Cancelled&) {
     made.selection.cancelled = !is_over(task.options.deadline);
     made.reason = kNoTime;

@@ -7,6 +7,7 @@
 #include "diagnose/search/set_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -33,21 +34,43 @@ std::vector<ScoredFit> without_each(const Likelihood& likelihood, const ScoredFi
   return made;
 }
 
-/// Drops the effects that validation runs are predicted better without. Returns the fits of the
-/// rest without each of its effects.
-std::vector<ScoredFit> drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out,
-                                          ScoredFit& best, const ReportedWork& work) {
-  double cost = held_out.cost_of(best.candidate);
+/// Returns the weakest of the fits without each effect, where the data do not distinguish it from
+/// `best`: posterior odds of kIndistinguishableOdds or less. The smaller set is then named.
+const ScoredFit* indistinguishable_from(const ScoredFit& best,
+                                        const std::vector<ScoredFit>& without) {
+  if (without.empty()) return nullptr;
+  const auto weakest = std::ranges::min_element(without, {}, &ScoredFit::score);
+  const double margin = 2.0 * std::log(kIndistinguishableOdds);
+  return weakest->score <= best.score + margin ? &*weakest : nullptr;
+}
+
+/// Drops effects without which the data do not distinguish the set from `best`.
+void drop_by_odds(const Likelihood& likelihood, ScoredFit& best, const ReportedWork& work) {
+  while (true) {
+    const std::vector<ScoredFit> without = without_each(likelihood, best, work);
+    const ScoredFit* weakest = indistinguishable_from(best, without);
+    if (weakest == nullptr) return;
+    best = scored_fit(likelihood, weakest->candidate, work);
+  }
+}
+
+/// Drops the effects without which the data do not distinguish the set from `best`, and those that
+/// validation runs are predicted better without. Returns the fits of the rest without each of its
+/// effects.
+std::vector<ScoredFit> drop_needless(const Likelihood& likelihood, const Likelihood& held_out,
+                                     ScoredFit& best, const ReportedWork& work) {
   while (true) {
     std::vector<ScoredFit> without = without_each(likelihood, best, work);
-    if (without.empty() || !likelihood.problem().has_validation_runs()) return without;
-    std::vector<double> costs;
-    for (const ScoredFit& one : without) costs.push_back(held_out.cost_of(one.candidate));
-    const auto least = std::ranges::min_element(costs);
-    if (!(*least < cost)) return without;
-    best = scored_fit(likelihood,
-                      without[static_cast<std::size_t>(least - costs.begin())].candidate, work);
-    cost = held_out.cost_of(best.candidate);
+    const ScoredFit* dropped = indistinguishable_from(best, without);
+    if (dropped == nullptr && !without.empty() && likelihood.problem().has_validation_runs()) {
+      std::vector<double> costs;
+      for (const ScoredFit& one : without) costs.push_back(held_out.cost_of(one.candidate));
+      const auto least = std::ranges::min_element(costs);
+      if (*least < held_out.cost_of(best.candidate))
+        dropped = &without[static_cast<std::size_t>(least - costs.begin())];
+    }
+    if (dropped == nullptr) return without;
+    best = scored_fit(likelihood, dropped->candidate, work);
   }
 }
 
@@ -112,15 +135,24 @@ void search_with_timing(Selection& made, FoundSets& sets, const std::vector<Hypo
 }
 
 /// Takes up the noise that the data show beside the best set, white or coloured. Where the arm as
-/// filed leaves noise of some colour, that is the best set.
-void see_noise(Problem& problem, ScoredFit& best, const ScoredFit& filed, ReportedWork& work) {
+/// filed leaves noise of some colour, that is the best set. Effects that are not needed beside
+/// coloured noise are dropped. The fits are of `likelihood`, in white noise.
+void see_noise(const Likelihood& likelihood, Problem& problem, ScoredFit& best,
+               const ScoredFit& filed, ReportedWork& work) {
   problem.lower_noise(best.candidate);
   if (auto coloured = with_noise_colour(problem, filed.candidate, work)) {
     problem = *std::move(coloured);
     best = filed;
   } else if (!best.candidate.effects.empty()) {
     coloured = with_noise_colour(problem, best.candidate, work);
-    if (coloured) problem = *std::move(coloured);
+    if (!coloured) return;
+    problem = *std::move(coloured);
+    const Likelihood beside_noise(problem, problem.estimation_runs(), SampleSize::of_noise);
+    ScoredFit kept = scored_fit(beside_noise, best.candidate, work);
+    drop_by_odds(beside_noise, kept, work);
+    if (kept.candidate.effects.size() < best.candidate.effects.size()) {
+      best = scored_fit(likelihood, kept.candidate, work);
+    }
   }
 }
 
@@ -206,9 +238,9 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     const Problem searched = made.problem;
     const Likelihood likelihood(searched, searched.estimation_runs(), sets.sample_size);
     filed = scored_fit(likelihood, searched.as_filed(), work);
-    see_noise(made.problem, best, filed, work);
+    see_noise(likelihood, made.problem, best, filed, work);
     const Likelihood held_out(searched, searched.validation_runs(), sets.sample_size);
-    without = drop_by_validation(likelihood, held_out, best, work);
+    without = drop_needless(likelihood, held_out, best, work);
     made.evidence = evidence_for_each(held_out, best, without, work);
   });
   work.lift_deadline();

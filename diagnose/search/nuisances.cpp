@@ -27,7 +27,7 @@ std::optional<TimedProblem> with_timing(const Problem& problem, const Candidate&
   return timed;
 }
 
-std::optional<Problem> with_noise_colour(const Problem& problem, const Candidate& set,
+std::optional<Problem> with_noise_colour(const Problem& problem, const Candidate& set, double level,
                                          ReportedWork& work) {
   if (problem.predictor().noise() || problem.has_coloured_noise()) return std::nullopt;
   const auto leaves_noise_in = [&set](const Problem& noise) {
@@ -37,8 +37,8 @@ std::optional<Problem> with_noise_colour(const Problem& problem, const Candidate
   auto coloured = problem.with_coloured_noise(set);
   if (!coloured || exceeds_noise_of_one_sensor(*coloured, problem)) return std::nullopt;
   if (!leaves_noise_in(*coloured)) return std::nullopt;
-  const DependenceTest dependence = test_dependence(*coloured, problem, set, work, kResidualLevel);
-  if (dependence.p_value < kResidualLevel) return std::nullopt;
+  const DependenceTest dependence = test_dependence(*coloured, problem, set, work, level);
+  if (dependence.p_value < level) return std::nullopt;
   return coloured;
 }
 

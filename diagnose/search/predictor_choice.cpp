@@ -148,9 +148,19 @@ bool is_adequate(const Problem& problem, const arm::Deadline& deadline) {
   }
 }
 
+/// Returns whether no effect of a selection is supported by the validation runs (grade_of).
+bool is_doubtful(const Selection& selection) {
+  if (selection.chosen.fit.candidate.effects.empty()) return true;
+  return selection.problem.has_validation_runs() &&
+         std::ranges::all_of(selection.evidence, [](const EffectEvidence& one) {
+           return grade_of(one, false, false) == Grade::candidate;
+         });
+}
+
 /// Selects with noise of the recorded torque where that leaves noise beside no effect, else by
 /// simulation. Where that does not leave noise, noise of the torque is tried beside the effects
-/// that it names, and then the other predictors.
+/// that it names. The other predictors are tried where it supports none, or errs by more than
+/// kUseless.
 PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
@@ -171,10 +181,11 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
     if (!named.empty()) {
       if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
     }
-    if (named.empty() || simulated_error(made) > kUseless) {
+    if (is_doubtful(made.selection) || simulated_error(made) > kUseless) {
       return select_beyond_simulation(made, task, progress);
     }
-    made.reason = "others are tried where a simulation names nothing, or leaves half of the signal";
+    made.reason =
+        "others are tried where a simulation supports no effect, or leaves half of the signal";
   } catch (const Cancelled&) {
     made.selection.cancelled = !is_over(task.options.deadline);
     made.reason = kNoTime;

@@ -13,7 +13,7 @@ namespace flexarm::diagnose {
 /// - else output error, in closed loop where runs state their controllers and the loop can be
 ///   simulated with the arm file; where effects are found that do not leave noise, again with noise
 ///   of the recorded torques beside these effects;
-/// - where it finds no effect, or what it finds leaves half of the signal: responses, where torques are rich (response_runs.hpp); then, where
+/// - where it supports no effect, or what it finds leaves half of the signal: responses, where torques are rich (response_runs.hpp); then, where
 ///   the most likely disturbance of the hub torque is options.least_disturbance or more, a torque
 ///   balance at the hub, or a stochastic grey box where a `time` run does not show the hub's
 ///   motion. For a torque balance, what acts on beam, payload and sensors is selected by the

@@ -1,8 +1,10 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/parallel.hpp"
+#include "diagnose/search/dependence_test.hpp"
 #include "diagnose/search/evidence_of_fit.hpp"
 #include "diagnose/search/nuisances.hpp"
+#include "diagnose/search/residual_test.hpp"
 #include "diagnose/search/rivals.hpp"
 #include "diagnose/search/set_search.hpp"
 
@@ -140,11 +142,11 @@ void search_with_timing(Selection& made, FoundSets& sets, const std::vector<Hypo
 void see_noise(const Likelihood& likelihood, Problem& problem, ScoredFit& best,
                const ScoredFit& filed, ReportedWork& work) {
   problem.lower_noise(best.candidate);
-  if (auto coloured = with_noise_colour(problem, filed.candidate, work)) {
+  if (auto coloured = with_noise_colour(problem, filed.candidate, kResidualLevel, work)) {
     problem = *std::move(coloured);
     best = filed;
   } else if (!best.candidate.effects.empty()) {
-    coloured = with_noise_colour(problem, best.candidate, work);
+    coloured = with_noise_colour(problem, best.candidate, kResidualLevel, work);
     if (!coloured) return;
     problem = *std::move(coloured);
     const Likelihood beside_noise(problem, problem.estimation_runs(), SampleSize::of_noise);
@@ -241,6 +243,11 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     see_noise(likelihood, made.problem, best, filed, work);
     const Likelihood held_out(searched, searched.validation_runs(), sets.sample_size);
     without = drop_needless(likelihood, held_out, best, work);
+    if (best.candidate.effects.empty()) {
+      // Nothing was found that the residuals depend on.
+      auto coloured = with_noise_colour(made.problem, best.candidate, kCertainDependence, work);
+      if (coloured) made.problem = *std::move(coloured);
+    }
     made.evidence = evidence_for_each(held_out, best, without, work);
   });
   work.lift_deadline();

@@ -117,7 +117,7 @@ std::vector<Hypothesis> hypotheses_of_an_axis(const Experiment& experiment) {
                             "time_delay", "hub_viscous_friction", "torque_bias", "torque_gain"});
 }
 
-void expect_friction_and_bias(const Selection& selection) {
+void expect_friction_and_bias(const Selection& selection, double within) {
   std::map<std::string, double> found;  // the first parameter of each
   const Candidate& chosen = selection.chosen.fit.candidate;
   for (std::size_t i = 0; i < chosen.effects.size(); ++i) {
@@ -126,12 +126,11 @@ void expect_friction_and_bias(const Selection& selection) {
   ASSERT_THAT(found, testing::UnorderedElementsAre(testing::Key("coulomb_friction"),
                                                    testing::Key("hub_viscous_friction"),
                                                    testing::Key("torque_bias")));
-  constexpr double kWithin = 0.05;
   const Axis axis;
-  EXPECT_NEAR(found.at("coulomb_friction"), axis.coulomb_N_m, kWithin * axis.coulomb_N_m);
+  EXPECT_NEAR(found.at("coulomb_friction"), axis.coulomb_N_m, within * axis.coulomb_N_m);
   EXPECT_NEAR(found.at("hub_viscous_friction"), axis.viscous_N_m_s_per_rad,
-              kWithin * axis.viscous_N_m_s_per_rad);
-  EXPECT_NEAR(found.at("torque_bias"), axis.bias_N_m, kWithin * axis.bias_N_m);
+              within * axis.viscous_N_m_s_per_rad);
+  EXPECT_NEAR(found.at("torque_bias"), axis.bias_N_m, within * axis.bias_N_m);
 }
 
 }  // namespace flexarm::diagnose

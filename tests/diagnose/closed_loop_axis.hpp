@@ -44,8 +44,8 @@ Experiment axis_experiment_with_controller(const Axis& axis = {});
 /// Viscous and dry friction, bias and what else an axis may have.
 std::vector<Hypothesis> hypotheses_of_an_axis(const Experiment& experiment);
 
-/// What was named is what Axis() has, each within 5 %: as published figures of such an axis are met
-/// (docs/diagnosis.md).
-void expect_friction_and_bias(const Selection& selection);
+/// Expects that what was named is what Axis() has, each within this part of it. Published figures of
+/// such an axis are met within 5 % (docs/diagnosis.md).
+void expect_friction_and_bias(const Selection& selection, double within = 0.05);
 
 }  // namespace flexarm::diagnose

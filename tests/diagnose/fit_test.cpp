@@ -44,15 +44,6 @@ TEST(Fit, WithoutEffectsIsTheArmItself) {
   EXPECT_TRUE(left.is_noise()) << left.sum_of_squares / left.count;
 }
 
-TEST(Diagnose, RejectsASetOnce) {
-  // An unknown torque of the hub: the gain is fitted twice, and named neither time.
-  const Experiment experiment = axis_experiment_with_controller(
-      axis_with([](double angle_rad, double) { return 0.6 * std::sin(12.0 * angle_rad); }));
-  const Diagnosis made = diagnose(experiment, named(experiment, {"torque_gain", "time_delay"}));
-  ASSERT_EQ(made.near_misses.size(), 1U);
-  EXPECT_EQ(made.near_misses.front().effects, "torque_gain");
-}
-
 TEST(Diagnose, OfDataWithNothingHiddenIsAdequate) {
   const Experiment experiment = simulated_experiment({});
   const Diagnosis made = diagnose(experiment, hypotheses(experiment));

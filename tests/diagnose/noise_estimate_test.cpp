@@ -1,6 +1,7 @@
 // Noise models of runs in which an unrecorded torque acts on the hub.
-#include "arm/input_error.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
+
+#include "arm/input_error.hpp"
 #include "diagnose/search/fit.hpp"
 #include "diagnose/search/predictor_choice.hpp"
 #include "effects/registry/vocabulary.hpp"
@@ -36,8 +37,8 @@ Experiment with_unrecorded_torque(Experiment experiment, std::uint64_t seed) {
     double torque_N_m = kDisturbance_N_m * random.normal();
     for (double& recorded : record.torque_N_m) {
       recorded -= torque_N_m;
-      torque_N_m = kept * torque_N_m +
-                   kDisturbance_N_m * std::sqrt(1.0 - kept * kept) * random.normal();
+      torque_N_m =
+          kept * torque_N_m + kDisturbance_N_m * std::sqrt(1.0 - kept * kept) * random.normal();
     }
   }
   return experiment;
@@ -56,9 +57,9 @@ Experiment with_forces_on_modes(Experiment experiment, std::uint64_t seed) {
     std::vector<arm::Sensor> sensors;
     for (const measured::Channel& channel : record.channels) sensors.push_back(channel.sensor);
     const response::ArmParts parts = response::take_apart(arm_in(experiment, run.run));
-    const arm::ModalModel model = response::time_model(
-        response::make_formulation("exact_tf", parts.linear, flexible_modes), parts,
-        flexible_modes, sensors);
+    const arm::ModalModel model =
+        response::time_model(response::make_formulation("exact_tf", parts.linear, flexible_modes),
+                             parts, flexible_modes, sensors);
     const response::ArmSimulator simulator(
         model, parts, sensors, response::options_of_fit(period_s, response::TorqueHold::zero));
     const auto samples = static_cast<Eigen::Index>(record.time_s.size());
@@ -70,8 +71,8 @@ Experiment with_forces_on_modes(Experiment experiment, std::uint64_t seed) {
         const double size = impulse_rad_per_s * random.normal();
         for (std::size_t j = 0; j < record.channels.size(); ++j) {
           Eigen::VectorXd::Map(record.channels[j].values.data(), samples).tail(samples - k) +=
-              size * free.col(modes + mode)
-                         .segment(static_cast<Eigen::Index>(j) * samples, samples - k);
+              size *
+              free.col(modes + mode).segment(static_cast<Eigen::Index>(j) * samples, samples - k);
         }
       }
     }
@@ -122,8 +123,8 @@ TEST(NoiseEstimate, OfARunWithoutDisturbanceIsNegligible) {
 }
 
 TEST(NoiseEstimate, FindsForcesOnTheModesBesideAnUnrecordedTorque) {
-  const Experiment experiment = with_forces_on_modes(
-      with_unrecorded_torque(simulated_experiment({}, kShortRuns), 5), 6);
+  const Experiment experiment =
+      with_forces_on_modes(with_unrecorded_torque(simulated_experiment({}, kShortRuns), 5), 6);
   const Problem problem(experiment);
   const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
   const std::vector<bool> all(experiment.runs.size(), true);
@@ -139,8 +140,7 @@ TEST(NoiseEstimate, FindsForcesOnTheModesBesideAnUnrecordedTorque) {
 }
 
 TEST(NoiseEstimate, AsksForNoForcesOnTheModesWithoutAny) {
-  const Experiment experiment =
-      with_unrecorded_torque(simulated_experiment({}, kShortRuns), 5);
+  const Experiment experiment = with_unrecorded_torque(simulated_experiment({}, kShortRuns), 5);
   const Problem problem(experiment);
   const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
   const std::vector<bool> all(experiment.runs.size(), true);
@@ -152,8 +152,8 @@ TEST(NoiseEstimate, AsksForNoForcesOnTheModesWithoutAny) {
 TEST(PredictorChoice, OutputErrorWhereItLeavesNoise) {
   const Experiment experiment =
       simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.01}})});
-  const auto made = select_by_evidence(
-      experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
+  const auto made =
+      select_by_evidence(experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
   EXPECT_EQ(made.predictor, PredictorKind::output_error);
   EXPECT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
 }
@@ -189,9 +189,9 @@ TEST(GreyBox, HasTheDelayOfALateSensorAsItsBestFit) {
 class FilteringPredictor : public testing::TestWithParam<PredictorKind> {
  protected:
   static PredictedSelection selected(const Experiment& experiment) {
-    return select_by_evidence(
-        experiment, named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}),
-        {.predictor = GetParam()}, {});
+    return select_by_evidence(experiment,
+                              named(experiment, {"coulomb_friction", "hub_spring", "payload_mass"}),
+                              {.predictor = GetParam()}, {});
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, FilteringPredictor,
@@ -200,7 +200,8 @@ INSTANTIATE_TEST_SUITE_P(All, FilteringPredictor,
 
 TEST_P(FilteringPredictor, NamesFrictionUnderAnUnrecordedTorque) {
   const Experiment experiment = with_unrecorded_torque(
-      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.02}})}, kShortRuns), 6);
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.02}})}, kShortRuns),
+      6);
   const auto made = selected(experiment);
   EXPECT_EQ(made.predictor, GetParam());
   ASSERT_THAT(named_by(made.selection), testing::ElementsAre("coulomb_friction"));
@@ -214,8 +215,8 @@ TEST_P(FilteringPredictor, NamesNothingWhereOnlyAnUnrecordedTorqueIsHidden) {
 
 TEST(PredictorChoice, TorqueBalanceWhereOutputErrorDoesNotLeaveNoise) {
   const Experiment experiment = with_unrecorded_torque(simulated_experiment({}, kShortRuns), 9);
-  const auto made = select_by_evidence(
-      experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
+  const auto made =
+      select_by_evidence(experiment, named(experiment, {"coulomb_friction", "hub_spring"}), {}, {});
   EXPECT_EQ(made.predictor, PredictorKind::torque_balance);
   EXPECT_THAT(named_by(made.selection), testing::IsEmpty());
 }
@@ -226,9 +227,15 @@ TEST(PredictorChoice, BeamIsJudgedByTheMotionAndTheHubByItsTorqueBalance) {
                             effects::named("flexural_rigidity", {{"factor", 0.9}})},
                            kShortRuns),
       6);
-  const auto made = select_by_evidence(
-      experiment, named(experiment, {"coulomb_friction", "hub_spring", "flexural_rigidity"}), {},
-      {});
+  const auto hypotheses =
+      named(experiment, {"coulomb_friction", "hub_spring", "flexural_rigidity"});
+  const Problem problem(experiment);
+  const SelectionOptions options;
+  const auto balanced =
+      select_by_filter({hypotheses, options},
+                       {.selection = Selection{problem}, .reason = "", .simulated = problem}, {});
+  ASSERT_TRUE(balanced);
+  const PredictedSelection& made = *balanced;
   ASSERT_EQ(made.predictor, PredictorKind::torque_balance);
   ASSERT_TRUE(made.by_motion);
   ASSERT_THAT(named_by(*made.by_motion), testing::ElementsAre("flexural_rigidity"));
@@ -238,8 +245,7 @@ TEST(PredictorChoice, BeamIsJudgedByTheMotionAndTheHubByItsTorqueBalance) {
   EXPECT_NEAR(whole.values[0], 0.9, 0.01);
   EXPECT_NEAR(whole.values[1], 0.02, 0.002);
   // The arm of the balance has the beam's effect already.
-  const arm::Arm& balanced = made.selection.problem.experiment().arm;
-  EXPECT_TRUE(balanced.effects.contains("flexural_rigidity"));
+  EXPECT_TRUE(made.selection.problem.experiment().arm.effects.contains("flexural_rigidity"));
 }
 
 }  // namespace

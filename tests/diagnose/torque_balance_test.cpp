@@ -29,7 +29,8 @@ TEST(TorqueBalance, EstimatesTheFrictionThatTheArmLacks) {
 
 TEST(TorqueBalance, NamesFrictionAndBiasOfAClosedLoop) {
   const Experiment experiment = axis_experiment();
-  const auto made = select_by_evidence(experiment, hypotheses_of_an_axis(experiment), {}, {});
+  const auto made = select_by_evidence(experiment, hypotheses_of_an_axis(experiment),
+                                       {.predictor = PredictorKind::torque_balance}, {});
   EXPECT_EQ(made.predictor, PredictorKind::torque_balance);
   expect_friction_and_bias(made.selection);
 }

@@ -29,6 +29,7 @@ struct FixedAnswer {
   diagnose::Verdict verdict;
   diagnose::PredictorKind predictor;
   std::vector<std::string> effects;
+  std::vector<std::string> established;  ///< of these (diagnose::Grade)
 };
 
 diagnose::Experiment recorded(const TrialKey& key) {
@@ -68,9 +69,19 @@ void expect_hidden_found(const TrialKey& key, const std::set<std::string>& other
 }
 
 FixedAnswer answer_of(const diagnose::Diagnosis& diagnosis) {
-  FixedAnswer answer{diagnosis.verdict, diagnosis.predictor, {}};
-  for (const auto& cause : diagnosis.causes) answer.effects.push_back(cause.effect);
+  FixedAnswer answer{diagnosis.verdict, diagnosis.predictor, {}, {}};
+  for (const auto& cause : diagnosis.causes) {
+    answer.effects.push_back(cause.effect);
+    if (cause.grade == diagnose::Grade::established) answer.established.push_back(cause.effect);
+  }
   return answer;
+}
+
+/// What acts is none of the effects that are tried: those that imitate it are not established.
+void expect_not_explained(const FixedAnswer& answer) {
+  EXPECT_THAT(answer.verdict,
+              AnyOf(diagnose::Verdict::unexplained, diagnose::Verdict::partly_explained));
+  EXPECT_THAT(answer.established, IsEmpty());
 }
 
 /// The effect `unknown` is not among those tried.
@@ -247,14 +258,14 @@ TEST(FixedTrial, DISABLED_ThreeEffectsUnderDrift) {
 TEST(FixedTrial, ASecondCauseInClosedLoopIsNoNoiseOfTheTorque) {
   // The controller turns the noise of its sensors into torque, which is recorded as it was. Taken
   // for an error of the record it makes residuals noise beside the rigidity alone. That is 0.6 %
-  // off, and is beside a thickness that is 1 % off part of it.
+  // off, beside a thickness that is 1 % off.
   const TrialKey key{.kind = RunKind::time,
                      .hidden = {"flexural_rigidity", "beam_thickness", "payload_mass"},
                      .dirt = "closed_loop"};
   const FixedAnswer answer = diagnosed_among(key, {"hub_inertia", "linear_density"});
   EXPECT_EQ(answer.verdict, diagnose::Verdict::explained);
   EXPECT_EQ(answer.predictor, diagnose::PredictorKind::output_error);
-  EXPECT_THAT(answer.effects, UnorderedElementsAre("beam_thickness", "payload_mass"));
+  EXPECT_THAT(answer.effects, UnorderedElementsAreArray(key.hidden));
 }
 
 TEST(FixedTrial, AMovingBaseIsNoGainOfASensor) {
@@ -262,8 +273,7 @@ TEST(FixedTrial, AMovingBaseIsNoGainOfASensor) {
   // they show a gain of 2.3, with which a simulation errs 32 % of the signal, after 14 %.
   const TrialKey key{.kind = RunKind::time, .hidden = {"moving_base"}, .seed = 13};
   const FixedAnswer answer = diagnosed_among(key, {"sensor_gain"});
-  EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
-  EXPECT_THAT(answer.effects, IsEmpty());
+  expect_not_explained(answer);
 }
 
 TEST(FixedTrial, AMovingBaseIsNoNoiseOfTheHubsSensors) {
@@ -279,8 +289,7 @@ TEST(FixedTrial, ATaperedBeamIsNoInertiaOfTheHub) {
   // for another one: 0.967 to 0.978.
   const TrialKey key{.kind = RunKind::time, .hidden = {"tapered_beam"}, .seed = 13};
   const FixedAnswer answer = diagnosed_among(key, {"hub_inertia", "linear_density"});
-  EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
-  EXPECT_THAT(answer.effects, IsEmpty());
+  expect_not_explained(answer);
 }
 
 TEST(FixedTrial, StribeckFrictionIsMoreThanCoulombFriction) {
@@ -298,8 +307,7 @@ TEST(FixedTrial, ABacklashIsNoSoftRoot) {
   // stiffness: 786 to 906 N m/rad.
   const TrialKey key{.kind = RunKind::time, .hidden = {"backlash"}, .seed = 16};
   const FixedAnswer answer = diagnosed_among(key, {"root_compliance"});
-  EXPECT_EQ(answer.verdict, diagnose::Verdict::unexplained);
-  EXPECT_THAT(answer.effects, IsEmpty());
+  expect_not_explained(answer);
 }
 
 TEST(FixedTrial, AnActuatorsLagInFrequency) {

@@ -20,6 +20,9 @@ using Eigen::VectorXd;
 
 namespace {
 
+/// The square, in standard deviations of the noise, below which a line is as good as none.
+constexpr double kLeastSquare = 1e-12;
+
 /// Lines of the lowest band, at least.
 constexpr Index kFewestLines = 8;
 
@@ -173,6 +176,8 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
   const VectorXd known =
       lines(truncation_of(problem, runs_, flexible_modes + kFurtherModes)).cwiseAbs2() +
       lines(motion_error_of(problem)).cwiseAbs2();
+  // Innovations of a Kalman filter follow the data, from one sample to the next.
+  const double discrepancy = problem.predictor().noise() ? 0.0 : kDiscrepancy * kDiscrepancy;
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     const auto& data = problem.experiment().runs[channel.run].data;
@@ -197,8 +202,8 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
     Index end = samples;
     for (const Index first : octaves(samples)) {
       const Index count = end - first;
-      const double followed =
-          kDiscrepancy * kDiscrepancy * signal.segment(first, count).squaredNorm();
+      const double followed = discrepancy * signal.segment(first, count).squaredNorm() +
+                              kLeastSquare * static_cast<double>(count);
       bands_.push_back({channel.first + first, count,
                         known.segment(channel.first + first, count).sum() + followed});
       end = first;

@@ -25,10 +25,11 @@ enum class SampleSize { of_model_error, of_noise };
 ///     -2 ln L = sum_b m_b ln((a_b + S_b)/n_b)
 ///
 /// up to a constant. a_b are the squares of what the simulation itself errs by: its truncation,
-/// which is the change that further modes make of the arm as filed, and kDiscrepancy of the signal
-/// in that band. m_b is the effective sample size of a band (SampleSize): what a model gets wrong
-/// is a smooth function of frequency times the signal, so that its lines are no more independent of
-/// each other the more of them a record has, and m_b = min(n_b, kSampleSize). Lines of noise are
+/// which is the change that further modes make of the arm as filed, what the error of a measured
+/// motion that drives it adds, and, but for a Kalman filter, kDiscrepancy of the signal in that
+/// band. m_b is the effective sample size of a band (SampleSize): what a model gets wrong is a
+/// smooth function of frequency times the signal, so that its lines are no more independent of each
+/// other the more of them a record has, and m_b = min(n_b, kSampleSize). Lines of noise are
 /// independent, m_b = n_b: between sets that both leave noise these decide.
 ///
 /// Lines of responses and entries of modal tables have stated deviations. A channel of them is one

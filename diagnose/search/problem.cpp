@@ -128,7 +128,8 @@ void Problem::replace_torques(Experiment experiment) {
 }
 
 bool Problem::lower_noise(const Candidate& candidate) {
-  if (has_coloured_noise()) return false;
+  const auto& noise = predictor_.noise();
+  if (has_coloured_noise() || (noise && !noise->is_torque_noise())) return false;
   const auto left = residuals(candidate, std::vector<bool>(experiment_->runs.size(), true));
   if (!left) return false;
   const Eigen::VectorXd expected = with_expected_errors(observations_, *left);

@@ -65,8 +65,9 @@ class Problem {
 
   /// Takes the noise of `time` channels down to what is seen of it under the residuals of a
   /// candidate, for all runs, where that is less: a signal that fills the spectrum hides it, what
-  /// is left of one does not. Coloured noise stays as it is. Returns whether the noise of any fell
-  /// by more than `kLower` of it; else nothing is changed.
+  /// is left of one does not. Coloured noise stays as it is, and that beside a disturbance of the
+  /// hub torque, which estimate_noise takes up. Returns whether the noise of any fell by more than
+  /// `kLower` of it; else nothing is changed.
   bool lower_noise(const Candidate& candidate);
   static constexpr double kLower = 0.05;
 

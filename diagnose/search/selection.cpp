@@ -141,6 +141,11 @@ void search_with_timing(Selection& made, FoundSets& sets, const std::vector<Hypo
 /// coloured noise are dropped. The fits are of `likelihood`, in white noise.
 void see_noise(const Likelihood& likelihood, Problem& problem, ScoredFit& best,
                const ScoredFit& filed, ReportedWork& work) {
+  const auto& noise = problem.predictor().noise();
+  if (noise && !noise->is_torque_noise()) {
+    problem.estimate_noise(best.candidate, [&work] { work.go_on(); });
+    return;
+  }
   problem.lower_noise(best.candidate);
   if (auto coloured = with_noise_colour(problem, filed.candidate, kResidualLevel, work)) {
     problem = *std::move(coloured);

@@ -339,13 +339,15 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     const bool is_noise = leaves_noise(likelihood, beam.front());
     if (is_noise && beam.front().candidate.effects.empty()) return {std::move(beam)};
     work.tell("rivals of the effects that were found", 0.8);
-    const auto sample_size = is_noise ? SampleSize::of_noise : SampleSize::of_model_error;
+    // Innovations of a Kalman filter are noise whatever the model errs by: its disturbance is that.
+    const bool exchanges = is_noise && !problem.predictor().noise();
+    const auto sample_size = exchanges ? SampleSize::of_noise : SampleSize::of_model_error;
     const Likelihood whole = likelihood.with(sample_size);
     if (options.rungs[1] < longest) {
       const PartOfData part(problem, options.rungs[1], options.coarse_modes, sample_size);
-      add_rivals(whole, part.likelihood(), is_noise, hypotheses, options, work, beam);
+      add_rivals(whole, part.likelihood(), exchanges, hypotheses, options, work, beam);
     } else {
-      add_rivals(whole, whole, is_noise, hypotheses, options, work, beam);
+      add_rivals(whole, whole, exchanges, hypotheses, options, work, beam);
     }
     made.sample_size = sample_size;
   } catch (const Cancelled&) {

@@ -178,7 +178,10 @@ TEST(MissingForce, OfResponsesIsNamedWhereTheCauseIsExcluded) {
   const Experiment experiment =
       measured_responses({named("attached_mass", {{"mass", 0.05}, {"position", 0.5}})});
   std::vector<Hypothesis> others = hypotheses(experiment);
-  std::erase_if(others, [](const Hypothesis& one) { return one.effect == "attached_mass"; });
+  // A heavier beam takes up a part of it: what is left then acts at the tip.
+  std::erase_if(others, [](const Hypothesis& one) {
+    return one.effect == "attached_mass" || one.effect == "linear_density";
+  });
   std::erase_if(others, [](const Hypothesis& one) { return one.parameters.size() > 1; });
   const Diagnosis made = diagnose(experiment, others, {.most_causes = 1});
   EXPECT_NE(made.verdict, Verdict::adequate);

@@ -36,43 +36,33 @@ std::vector<ScoredFit> without_each(const Likelihood& likelihood, const ScoredFi
   return made;
 }
 
-/// Returns the weakest of the fits without each effect, where the data do not distinguish it from
-/// `best`: posterior odds of kIndistinguishableOdds or less. The smaller set is then named.
-const ScoredFit* indistinguishable_from(const ScoredFit& best,
-                                        const std::vector<ScoredFit>& without) {
-  if (without.empty()) return nullptr;
-  const auto weakest = std::ranges::min_element(without, {}, &ScoredFit::score);
-  const double margin = 2.0 * std::log(kIndistinguishableOdds);
-  return weakest->score <= best.score + margin ? &*weakest : nullptr;
-}
-
-/// Drops effects without which the data do not distinguish the set from `best`.
+/// Drops effects without which a set has posterior odds of kIndistinguishableOdds or less against
+/// it.
 void drop_by_odds(const Likelihood& likelihood, ScoredFit& best, const ReportedWork& work) {
-  while (true) {
+  const double margin = 2.0 * std::log(kIndistinguishableOdds);
+  while (!best.candidate.effects.empty()) {
     const std::vector<ScoredFit> without = without_each(likelihood, best, work);
-    const ScoredFit* weakest = indistinguishable_from(best, without);
-    if (weakest == nullptr) return;
+    const auto weakest = std::ranges::min_element(without, {}, &ScoredFit::score);
+    if (weakest->score > best.score + margin) return;
     best = scored_fit(likelihood, weakest->candidate, work);
   }
 }
 
-/// Drops the effects without which the data do not distinguish the set from `best`, and those that
-/// validation runs are predicted better without. Returns the fits of the rest without each of its
-/// effects.
-std::vector<ScoredFit> drop_needless(const Likelihood& likelihood, const Likelihood& held_out,
-                                     ScoredFit& best, const ReportedWork& work) {
+/// Drops the effects that validation runs are predicted better without. Returns the fits of the
+/// rest without each of its effects.
+std::vector<ScoredFit> drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out,
+                                          ScoredFit& best, const ReportedWork& work) {
   while (true) {
     std::vector<ScoredFit> without = without_each(likelihood, best, work);
-    const ScoredFit* dropped = indistinguishable_from(best, without);
-    if (dropped == nullptr && !without.empty() && likelihood.problem().has_validation_runs()) {
-      std::vector<double> costs;
-      for (const ScoredFit& one : without) costs.push_back(held_out.cost_of(one.candidate));
-      const auto least = std::ranges::min_element(costs);
-      if (*least < held_out.cost_of(best.candidate))
-        dropped = &without[static_cast<std::size_t>(least - costs.begin())];
-    }
-    if (dropped == nullptr) return without;
-    best = scored_fit(likelihood, dropped->candidate, work);
+    if (without.empty() || !likelihood.problem().has_validation_runs()) return without;
+    std::vector<double> costs;
+    for (const ScoredFit& one : without) costs.push_back(held_out.cost_of(one.candidate));
+    const auto least = std::ranges::min_element(costs);
+    // Fits end this far from their minima: runs that do not show an effect tell nothing against it.
+    const double margin = 2.0 * ScoredFitOptions{}.tolerance;
+    if (!(*least < held_out.cost_of(best.candidate) - margin)) return without;
+    best = scored_fit(likelihood,
+                      without[static_cast<std::size_t>(least - costs.begin())].candidate, work);
   }
 }
 
@@ -247,7 +237,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     filed = scored_fit(likelihood, searched.as_filed(), work);
     see_noise(likelihood, made.problem, best, filed, work);
     const Likelihood held_out(searched, searched.validation_runs(), sets.sample_size);
-    without = drop_needless(likelihood, held_out, best, work);
+    without = drop_by_validation(likelihood, held_out, best, work);
     if (best.candidate.effects.empty()) {
       // Nothing was found that the residuals depend on.
       auto coloured = with_noise_colour(made.problem, best.candidate, kCertainDependence, work);

@@ -20,6 +20,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Returns a difference that is more than the rounding of two simulations; else 0.
+double beyond_rounding(double difference) {
+  constexpr double kRoundingOfCosts = 1e-9;
+  return std::abs(difference) > kRoundingOfCosts ? difference : 0.0;
+}
+
 /// Returns for each channel of these runs the mean squares of residuals over each of kErrorBlocks
 /// blocks, relative to the signal: their mean is the square of the channel's NRMSE.
 std::vector<ArrayXd> block_squares(const Problem& problem, const std::vector<bool>& runs,
@@ -68,8 +74,8 @@ void set_errors(const std::vector<ArrayXd>& without, const std::vector<ArrayXd>&
   }
   if (channels == 0.0) return;
   evidence.error_without = error / channels;
-  evidence.error_increase = increase / channels;
-  evidence.error_increase_std_error = std::sqrt(variance) / channels;
+  evidence.error_increase = beyond_rounding(increase / channels);
+  evidence.error_increase_std_error = beyond_rounding(std::sqrt(variance) / channels);
 }
 
 /// The estimates of one effect by each run alone.
@@ -167,7 +173,7 @@ std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const 
     estimates.set(i, evidence);
     const auto left = problem.residuals(without[i].candidate, problem.judged_runs());
     if (left) {
-      if (has_held_out) evidence.held_out = held_out_cost(*left) - cost;
+      if (has_held_out) evidence.held_out = beyond_rounding(held_out_cost(*left) - cost);
       set_errors(block_squares(problem, problem.judged_runs(), *left), squares, evidence);
     } else {
       evidence.error_without = std::numeric_limits<double>::infinity();

@@ -280,6 +280,9 @@ bool Likelihood::is_noise(const VectorXd& lines) const {
     excess += own;
     variance += 2.0 * n;
   }
+  const Index nuisances = lines.size() - problem_.observations().values.size();
+  const auto n = static_cast<double>(nuisances);
+  if (lines.tail(nuisances).squaredNorm() - n > kBandChance * std::sqrt(2.0 * n)) return false;
   return excess <= kTotalChance * std::sqrt(variance);
 }
 

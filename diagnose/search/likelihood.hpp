@@ -72,8 +72,9 @@ class Likelihood {
   double cost(const Eigen::VectorXd& lines) const { return cost_of_squares(lines.cwiseAbs2()); }
   /// Returns -2 ln L of the squares of lines.
   double cost_of_squares(const Eigen::VectorXd& squares) const;
-  /// Returns whether lines may be noise and the simulation's own error: neither a band nor all of
-  /// them together exceed what is expected by more than chance does in one case of a few hundred.
+  /// Returns whether lines may be noise and the simulation's own error: neither a band, nor
+  /// the nuisances, nor all of them together exceed what is expected by more than chance does in
+  /// one case of a few hundred.
   bool is_noise(const Eigen::VectorXd& lines) const;
   /// Returns the derivatives of -2 ln L by the square of each line: the weights of the quadratic
   /// form that has the same derivatives there.

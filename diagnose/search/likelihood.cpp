@@ -166,11 +166,10 @@ VectorXd motion_error_of(const Problem& problem) {
 
 }  // namespace
 
-Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, SampleSize sample_size)
-    : Likelihood(problem, std::move(runs), problem.predictor().flexible_modes(), sample_size) {}
+Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs)
+    : Likelihood(problem, std::move(runs), problem.predictor().flexible_modes()) {}
 
-Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes,
-                       SampleSize sample_size)
+Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes)
     : problem_(problem), runs_(std::move(runs)) {
   const Observations& observations = problem.observations();
   const VectorXd known =
@@ -209,16 +208,20 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
       end = first;
     }
   }
-  bands_ = with(sample_size).bands_;
+  take(SampleSize::of_model_error);
 }
 
-Likelihood Likelihood::with(SampleSize sample_size) const {
-  Likelihood made = *this;
-  for (Band& band : made.bands_) {
+void Likelihood::take(SampleSize sample_size) {
+  for (Band& band : bands_) {
     const auto n = static_cast<double>(band.count);
     const bool is_of_noise = sample_size == SampleSize::of_noise && !band.is_stated;
     band.sample_size = is_of_noise ? n : band.is_stated ? kSampleSize : std::min(n, kSampleSize);
   }
+}
+
+Likelihood Likelihood::with(SampleSize sample_size) const {
+  Likelihood made = *this;
+  made.take(sample_size);
   return made;
 }
 

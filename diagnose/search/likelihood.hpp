@@ -47,12 +47,10 @@ class Likelihood {
   static constexpr double kSampleSize = 8.0;
 
   /// Takes the `runs` of the problem, which must outlive the object.
-  Likelihood(const Problem& problem, std::vector<bool> runs,
-             SampleSize sample_size = SampleSize::of_model_error);
+  Likelihood(const Problem& problem, std::vector<bool> runs);
   /// Takes a problem with fewer flexible modes than the `flexible_modes` that are needed: the
   /// truncation is judged by those.
-  Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes,
-             SampleSize sample_size = SampleSize::of_model_error);
+  Likelihood(const Problem& problem, std::vector<bool> runs, int flexible_modes);
 
   const Problem& problem() const { return problem_; }
   const std::vector<bool>& runs() const { return runs_; }
@@ -63,7 +61,7 @@ class Likelihood {
   /// Returns the lines of a candidate's residuals; empty where its arm cannot be computed.
   std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const;
 
-  /// Returns the same with another sample size of its octaves.
+  /// Returns the same with this sample size of its octaves, which is of_model_error unless given.
   Likelihood with(SampleSize sample_size) const;
 
   /// Returns -2 ln L of a candidate; infinite where its arm cannot be computed.
@@ -92,6 +90,8 @@ class Likelihood {
     /// The derivative of the cost by the sum of squares.
     double slope(double sum) const;
   };
+
+  void take(SampleSize sample_size);
 
   const Problem& problem_;
   std::vector<bool> runs_;

@@ -27,7 +27,7 @@ constexpr double kRounding = 1e-6;
 constexpr std::array<double, 2> kBaseSizes = {0.3, 0.03};
 /// The part of its least sample of an effect of one parameter.
 constexpr double kSmallSize = 0.1;
-/// The same beside no effect, for what is far below the range it was looked for in.
+/// A smaller part of it beside no effect, for what is far below the range of its search.
 constexpr double kSmallestSize = 0.01;
 
 /// Returns the columns of `jacobian` but those by the effect at `index`.
@@ -68,40 +68,19 @@ std::vector<std::vector<StartPlaces>> groups_of_samples(const Hypothesis& effect
   return groups;
 }
 
-/// Returns places of an effect in the place of another one at `values`, where one of the two is a
-/// limit of the other: parameters that both have as they are, others over their ranges. Empty where
-/// neither is, or they have no parameter in common.
-std::vector<StartPlaces> samples_in_place(const Hypothesis& effect, const Hypothesis& other,
-                                          const std::vector<double>& values) {
-  if (!effect.contains(other.effect) && !other.contains(effect.effect)) return {};
-  std::vector<StartPlaces> samples = {{}};
-  bool has_common = false;
-  for (const SearchedParameter& parameter : effect.parameters) {
-    const auto same = std::ranges::find(other.parameters, parameter.name, &SearchedParameter::name);
-    std::vector<double> places = kSpreadPlaces;
-    if (same != other.parameters.end() && !parameter.above_previous) {
-      const auto at = static_cast<std::size_t>(same - other.parameters.begin());
-      places = {parameter.coordinate(values[at])};
-      has_common = true;
-    }
-    std::vector<StartPlaces> longer;
-    for (const StartPlaces& sample : samples) {
-      for (const double place : places) {
-        longer.push_back(sample);
-        longer.back().push_back(place);
-      }
-    }
-    samples = std::move(longer);
-  }
-  return has_common ? samples : std::vector<StartPlaces>{};
-}
-
 /// Returns whether what one of two effects changes depends on the other: they act at one place, or
 /// one is a limit of the other.
 bool depend_on_each_other(const Hypothesis& one, const Hypothesis& other) {
   return one.entry->family == other.entry->family || one.contains(other.effect) ||
          other.contains(one.effect);
 }
+
+/// A move that adds an effect, `size` times the change of the lines by it.
+struct Addition {
+  Move move = {};
+  double size = 0.0;
+  const VectorXd* change = nullptr;
+};
 
 /// A set that an effect may be added to, as the weighted lines have it.
 class Ground {
@@ -122,9 +101,10 @@ class Ground {
   /// Returns the predicted score where the rest is refitted.
   double score() const { return likelihood_.cost(unweighted(left_)) + price_; }
 
-  /// Returns the move that adds an effect with which the lines change by `change` at `places`;
-  /// without an effect where that changes nothing.
-  Move adding(const Hypothesis& effect, const StartPlaces& places, const VectorXd& change) const {
+  /// Returns the move that adds an effect with which the lines change by `change` at `places`,
+  /// which is to outlive it; without an effect where that changes nothing.
+  Addition adding(const Hypothesis& effect, const StartPlaces& places,
+                  const VectorXd& change) const {
     const VectorXd refitted = refitted_(roots_.cwiseProduct(change));
     const double squares = refitted.squaredNorm();
     if (!(squares > kRounding * kRounding * left_.squaredNorm())) return {};
@@ -133,10 +113,16 @@ class Ground {
     const VectorXd predicted = unweighted(left_ + size * refitted);
     const double parameters = static_cast<double>(effect.parameters.size());
     const double determined = parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
-    return {.added = &effect,
-            .values = values_at(effect, places, size),
-            .step = -refitted_.step(roots_.cwiseProduct(lines_ + size * change)),
-            .score = likelihood_.cost(predicted) + price_ + price(effect) + determined};
+    return {.move = {.added = &effect,
+                     .values = values_at(effect, places, size),
+                     .score = likelihood_.cost(predicted) + price_ + price(effect) + determined},
+            .size = size,
+            .change = &change};
+  }
+
+  /// Returns the predicted step of the coordinates of the set where an effect is added.
+  VectorXd step(const Addition& addition) const {
+    return -refitted_.step(roots_.cwiseProduct(lines_ + addition.size * *addition.change));
   }
 
  private:
@@ -213,25 +199,44 @@ class Neighbourhood {
                    const std::vector<std::vector<StartPlaces>>& groups,
                    const std::vector<std::size_t>& dropped, std::vector<Move>& made) const {
     for (const auto& samples : groups) {
-      std::vector<std::vector<Move>> moves(dropped.size());
+      std::vector<StartPlaces> looked_at;
+      std::vector<VectorXd> changes;
       for (const StartPlaces& places : samples) {
         const auto values = effects::values_at(effect.parameters, places);
         const auto moved = lines_of(ground.set().with(effect, values));
         if (!moved) continue;
-        const VectorXd change = *moved - ground.lines();
-        for (std::size_t k = 0; k < dropped.size(); ++k) {
-          Move move = ground_of(dropped[k]).adding(effect, places, change);
-          if (move.added == nullptr) continue;
-          if (dropped[k] < without_.size()) move.dropped = dropped[k];
-          moves[k].push_back(std::move(move));
-        }
+        looked_at.push_back(places);
+        changes.push_back(*moved - ground.lines());
       }
-      for (auto& of_one : moves) {
-        std::ranges::stable_sort(of_one, {}, &Move::score);
-        of_one.resize(std::min(of_one.size(), effect.parameters.size()));
-        std::ranges::move(of_one, std::back_inserter(made));
+      for (const std::size_t index : dropped) {
+        std::ranges::move(best_additions(index, effect, looked_at, changes),
+                          std::back_inserter(made));
       }
     }
+  }
+
+  /// Returns the best moves that add an effect to the ground at `index`, as many as it has
+  /// parameters, of those with these places and changes of the lines.
+  std::vector<Move> best_additions(std::size_t index, const Hypothesis& effect,
+                                   const std::vector<StartPlaces>& places,
+                                   const std::vector<VectorXd>& changes) const {
+    const Ground& ground = ground_of(index);
+    std::vector<Addition> additions;
+    for (std::size_t s = 0; s < places.size(); ++s) {
+      Addition one = ground.adding(effect, places[s], changes[s]);
+      if (one.move.added != nullptr) additions.push_back(std::move(one));
+    }
+    std::ranges::stable_sort(additions, {}, [](const Addition& one) { return one.move.score; });
+    additions.resize(std::min(additions.size(), effect.parameters.size()));
+    std::vector<Move> made;
+    for (Addition& one : additions) {
+      if (index < without_.size()) {
+        one.move.dropped = index;
+        one.move.step = ground.step(one);
+      }
+      made.push_back(std::move(one.move));
+    }
+    return made;
   }
 
   /// Returns the set without the effect at `dropped`; the whole set behind the last one.

@@ -15,8 +15,9 @@ struct Move {
   std::optional<std::size_t> dropped = {};  ///< index of the effects of the set
   const Hypothesis* added = nullptr;
   std::vector<double> values = {};  ///< of the added effect, to begin a fit with
-  Eigen::VectorXd step = {};        ///< predicted, of the coordinates of the effects that stay
-  double score = 0.0;               ///< predicted ScoredFit::score of the fit
+  /// The predicted step of the coordinates of the effects that stay; empty but for a swap.
+  Eigen::VectorXd step = {};
+  double score = 0.0;  ///< predicted ScoredFit::score of the fit
 
   /// Returns the set after the move; the effects that stay have their values, or with `is_refitted`
   /// those that are predicted.

@@ -40,10 +40,8 @@ Problem first_part_of(const Problem& whole, std::size_t samples, int most_modes)
 
 }  // namespace
 
-PartOfData::PartOfData(const Problem& whole, std::size_t samples, int most_modes,
-                       SampleSize sample_size)
+PartOfData::PartOfData(const Problem& whole, std::size_t samples, int most_modes)
     : problem_(first_part_of(whole, samples, most_modes)),
-      likelihood_(problem_, problem_.estimation_runs(), whole.predictor().flexible_modes(),
-                  sample_size) {}
+      likelihood_(problem_, problem_.estimation_runs(), whole.predictor().flexible_modes()) {}
 
 }  // namespace flexarm::diagnose

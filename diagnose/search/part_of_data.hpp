@@ -12,8 +12,7 @@ namespace flexarm::diagnose {
 /// are thinned; modal tables are whole.
 class PartOfData {
  public:
-  PartOfData(const Problem& whole, std::size_t samples, int most_modes,
-             SampleSize sample_size = SampleSize::of_model_error);
+  PartOfData(const Problem& whole, std::size_t samples, int most_modes);
 
   PartOfData(const PartOfData&) = delete;
   PartOfData& operator=(const PartOfData&) = delete;

@@ -13,14 +13,15 @@ class Posterior {
   /// `sets` must outlive the object: no effect, and sets of effects, each set once.
   explicit Posterior(const std::vector<const Explanation*>& sets);
 
-  /// Of all sets that have this cause; shared evenly with its `other_names`.
+  /// Returns the probability of the sets that have this cause, shared evenly with its
+  /// `other_names`.
   double of(const Hypothesis& cause) const;
-  /// Of all sets that have this cause, by whichever name, or one of `others` in its place.
+  /// Returns that of the sets that have this cause, by whichever name, or one of `others`.
   double of_any(const Hypothesis& cause, const std::vector<const Hypothesis*>& others) const;
-  /// Of all sets that do not leave noise: that something beyond the vocabulary is there, by itself
-  /// or beside causes.
+  /// Returns that of the sets that do not leave noise: something beyond the vocabulary is there, by
+  /// itself or beside causes.
   double of_something_else() const;
-  /// Of exactly this set; 0 where it is not among the sets.
+  /// Returns that of exactly this set; 0 where it is not among the sets.
   double of_set(const Candidate& candidate) const;
 
  private:

@@ -17,7 +17,6 @@ namespace flexarm::diagnose {
 /// false cancels.
 using DiagnosisProgress = std::function<bool(std::string_view, double)>;
 
-using arm::after_part;
 using arm::Cancelled;
 using arm::Deadline;
 using arm::halfway;

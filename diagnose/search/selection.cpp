@@ -144,7 +144,8 @@ void see_noise(const Likelihood& likelihood, Problem& problem, ScoredFit& best,
     coloured = with_noise_colour(problem, best.candidate, kResidualLevel, work);
     if (!coloured) return;
     problem = *std::move(coloured);
-    const Likelihood beside_noise(problem, problem.estimation_runs(), SampleSize::of_noise);
+    const Likelihood beside_noise =
+        Likelihood(problem, problem.estimation_runs()).with(SampleSize::of_noise);
     ScoredFit kept = scored_fit(beside_noise, best.candidate, work);
     drop_by_odds(beside_noise, kept, work);
     if (kept.candidate.effects.size() < best.candidate.effects.size()) {
@@ -233,10 +234,12 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   if (!sets.is_complete) made.end = SearchEnd{kStage, labels_beside(best, hypotheses)};
   in_time([&] {
     const Problem searched = made.problem;
-    const Likelihood likelihood(searched, searched.estimation_runs(), sets.sample_size);
+    const Likelihood likelihood =
+        Likelihood(searched, searched.estimation_runs()).with(sets.sample_size);
     filed = scored_fit(likelihood, searched.as_filed(), work);
     see_noise(likelihood, made.problem, best, filed, work);
-    const Likelihood held_out(searched, searched.validation_runs(), sets.sample_size);
+    const Likelihood held_out =
+        Likelihood(searched, searched.validation_runs()).with(sets.sample_size);
     without = drop_by_validation(likelihood, held_out, best, work);
     if (best.candidate.effects.empty()) {
       // Nothing was found that the residuals depend on.
@@ -252,7 +255,8 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   }
   made.problem = made.problem.until({});
   if (!filed.is_possible()) {
-    const Likelihood likelihood(made.problem, made.problem.estimation_runs(), sets.sample_size);
+    const Likelihood likelihood =
+        Likelihood(made.problem, made.problem.estimation_runs()).with(sets.sample_size);
     filed = scored_fit(likelihood, made.problem.as_filed(), work);
   }
   const Problem& problem = made.problem;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -197,7 +198,7 @@ class Rung {
   /// answers to what is dropped.
   Candidate start_of(const Move& move, const ScoredFit& base) const {
     Candidate start = move.of(base.candidate);
-    if (move.added == nullptr || !move.dropped || move.step.size() == 0) return start;
+    if (move.step.size() == 0) return start;
     Candidate refitted = move.of(base.candidate, true);
     work_.go_on();
     return likelihood_.cost_of(refitted) < likelihood_.cost_of(start) ? refitted : start;
@@ -326,13 +327,15 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
   };
   try {
     std::size_t width = options.beam;
+    std::unique_ptr<const PartOfData> part_for_rivals;  // null where all data are as short
     const std::size_t longest = longest_run(problem.experiment());
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
-      const PartOfData part(problem, samples, options.coarse_modes);
-      climb(part.likelihood(), width, Climb::to_noise);
+      auto part = std::make_unique<const PartOfData>(problem, samples, options.coarse_modes);
+      climb(part->likelihood(), width, Climb::to_noise);
       width = has_climbed ? 1 : width;
+      if (samples == options.rungs[1]) part_for_rivals = std::move(part);
     }
     work.tell("effects on all data", 0.5);
     climb(likelihood, width, Climb::to_the_end);
@@ -343,12 +346,9 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     const bool exchanges = is_noise && !problem.predictor().noise();
     const auto sample_size = exchanges ? SampleSize::of_noise : SampleSize::of_model_error;
     const Likelihood whole = likelihood.with(sample_size);
-    if (options.rungs[1] < longest) {
-      const PartOfData part(problem, options.rungs[1], options.coarse_modes, sample_size);
-      add_rivals(whole, part.likelihood(), exchanges, hypotheses, options, work, beam);
-    } else {
-      add_rivals(whole, whole, exchanges, hypotheses, options, work, beam);
-    }
+    const Likelihood part =
+        part_for_rivals ? part_for_rivals->likelihood().with(sample_size) : whole;
+    add_rivals(whole, part, exchanges, hypotheses, options, work, beam);
     made.sample_size = sample_size;
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace flexarm::diagnose {
 
@@ -50,27 +51,48 @@ double place_at(const SearchedParameter& parameter, double place, double size) {
   return neutral ? *neutral + size * (place - *neutral) : place;
 }
 
-}  // namespace
-
-std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis) {
-  const std::vector<double> along_beam = {0.1, 0.3, 0.5, 0.7, 0.9};
-  const std::size_t n = hypothesis.parameters.size();
-  const auto sized = hypothesis.size_parameter();
-  std::vector<StartPlaces> samples = {{}};
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<double> places = i == hypothesis.place_parameter() ? along_beam : kSpreadPlaces;
-    if (i == sized) places = {kMiddle};
-    if (n == 1) places = first_places(hypothesis.parameters.front());
+/// Returns all combinations of places, a list of them for each parameter; the last one varies
+/// first.
+std::vector<StartPlaces> all_of(const std::vector<std::vector<double>>& places) {
+  std::vector<StartPlaces> combinations = {{}};
+  for (const std::vector<double>& of_one : places) {
     std::vector<StartPlaces> longer;
-    for (const StartPlaces& sample : samples) {
-      for (const double place : places) {
-        longer.push_back(sample);
+    for (const StartPlaces& begun : combinations) {
+      for (const double place : of_one) {
+        longer.push_back(begun);
         longer.back().push_back(place);
       }
     }
-    samples = std::move(longer);
+    combinations = std::move(longer);
   }
-  return samples;
+  return combinations;
+}
+
+}  // namespace
+
+std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis) {
+  const std::vector<SearchedParameter>& parameters = hypothesis.parameters;
+  if (parameters.size() == 1) return all_of({first_places(parameters.front())});
+  std::vector<std::vector<double>> places(parameters.size(), kSpreadPlaces);
+  if (const auto along = hypothesis.place_parameter()) places[*along] = {0.1, 0.3, 0.5, 0.7, 0.9};
+  if (const auto sized = hypothesis.size_parameter()) places[*sized] = {kMiddle};
+  return all_of(places);
+}
+
+std::vector<StartPlaces> samples_in_place(const Hypothesis& hypothesis, const Hypothesis& other,
+                                          const std::vector<double>& values) {
+  if (!hypothesis.contains(other.effect) && !other.contains(hypothesis.effect)) return {};
+  std::vector<std::vector<double>> places(hypothesis.parameters.size(), kSpreadPlaces);
+  bool has_common = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SearchedParameter& parameter = hypothesis.parameters[i];
+    const auto same = std::ranges::find(other.parameters, parameter.name, &SearchedParameter::name);
+    if (same == other.parameters.end() || parameter.above_previous) continue;
+    const auto at = static_cast<std::size_t>(same - other.parameters.begin());
+    places[i] = {parameter.coordinate(values[at])};
+    has_common = true;
+  }
+  return has_common ? all_of(places) : std::vector<StartPlaces>{};
 }
 
 std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const StartPlaces& places) {
@@ -96,11 +118,6 @@ std::vector<double> values_at(const Hypothesis& hypothesis, StartPlaces places, 
 
 StartPlaces places_of(const Hypothesis& hypothesis, const std::vector<double>& values) {
   return effects::coordinates_of(hypothesis.parameters, values);
-}
-
-double place_along_beam(const Hypothesis& hypothesis, const StartPlaces& places) {
-  const auto place = hypothesis.place_parameter();
-  return place ? places[*place] : 0.0;
 }
 
 }  // namespace flexarm::diagnose

@@ -20,6 +20,12 @@ inline const std::vector<double> kEvenPlaces = {0.05, 0.15, 0.25, 0.35, 0.45,
 /// which it does nothing and over its range; of several over their ranges, the size at its middle.
 std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis);
 
+/// Returns values to look at in the place of another effect at `values`, where one of the two is a
+/// limit of the other: parameters that both have as they are, others over their ranges. Empty where
+/// neither is, or they have no parameter in common.
+std::vector<StartPlaces> samples_in_place(const Hypothesis& hypothesis, const Hypothesis& other,
+                                          const std::vector<double>& values);
+
 /// Returns the sizes that a change may have, the one at `places` being 1: those within the range of
 /// the parameter that gives it, where that goes on both sides of the value at which it does
 /// nothing, else 0.25 to 2.5.
@@ -28,8 +34,5 @@ std::pair<double, double> sizes_of(const Hypothesis& hypothesis, const StartPlac
 /// Returns the parameters at which the effect does `size` times what it does at `places`.
 std::vector<double> values_at(const Hypothesis& hypothesis, StartPlaces places, double size);
 StartPlaces places_of(const Hypothesis& hypothesis, const std::vector<double>& values);
-
-/// Returns the coordinate of an effect's place along the beam; 0 of one without.
-double place_along_beam(const Hypothesis& hypothesis, const StartPlaces& places);
 
 }  // namespace flexarm::diagnose

@@ -37,8 +37,8 @@ struct ParameterPosterior {
 /// Of the uncertainties that an arm file states: independent, log-normal.
 ParameterPosterior posterior_of(const arm::Arm& arm);
 
-/// Of a diagnosis (`flexarm.diagnosis/3`), its `posterior`, and its extended arm. Numbers that it
-/// did not estimate have the uncertainty that the arm states. Throws InputError for a document
+/// Returns the posterior of a diagnosis (`flexarm.diagnosis/3`) and its extended arm. Numbers that
+/// it did not estimate have the uncertainty that the arm states. Throws InputError for a document
 /// without that key, and nlohmann::json::exception for one of another form.
 ParameterPosterior posterior_of(const nlohmann::json& diagnosis, const arm::Arm& extended_arm);
 

@@ -38,7 +38,7 @@ Experiment measured_response(const Candidate& hidden) {
   run.run.purpose = measured::Purpose::estimation;
   run.data = measured::FrequencyRecord{{channel}};
   experiment.runs.push_back(run);
-  // What a problem of that shape predicts is then measured, with noise.
+  // The measured response is that which a problem of this shape predicts, with noise.
   const Problem shape(experiment);
   const Eigen::VectorXd predicted =
       shape.predictor()(hidden.extend(experiment.arm), shape.estimation_runs());

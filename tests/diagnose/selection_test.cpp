@@ -112,7 +112,7 @@ TEST(Selection, ExchangesACauseThatStandsInThePlaceOfAnother) {
 }
 
 TEST(Selection, FindsThreeEffectsOfLikeSize) {
-  // By itself each of them leaves an excess sum of squares of 2e6.
+  // Each of them leaves an excess sum of squares of 2e6 by itself.
   const Experiment experiment =
       simulated_experiment({effects::named("torque_bias", {{"torque", 1.916e-4}}),
                             effects::named("hub_viscous_friction", {{"coefficient", 1.516e-3}}),

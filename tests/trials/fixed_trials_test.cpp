@@ -1,5 +1,6 @@
 // A few trials that every build has to pass, through the library. Those that are DISABLED_ take 12
-// s or more each, or are not found and say so; `scripts/trials fixed` runs them as well. scripts/trials makes many more.
+// s or more each, or are not found and say so; `scripts/trials fixed` runs them as well.
+// scripts/trials makes many more.
 #include "diagnose/diagnosis.hpp"
 #include "diagnose/search/hypothesis.hpp"
 #include "diagnose/search/selection.hpp"
@@ -77,7 +78,7 @@ FixedAnswer answer_of(const diagnose::Diagnosis& diagnosis) {
   return answer;
 }
 
-/// What acts is none of the effects that are tried: those that imitate it are not established.
+/// Expects that effects which imitate what acts, and is not among those tried, are not established.
 void expect_not_explained(const FixedAnswer& answer) {
   EXPECT_THAT(answer.verdict,
               AnyOf(diagnose::Verdict::unexplained, diagnose::Verdict::partly_explained));

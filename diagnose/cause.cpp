@@ -64,11 +64,12 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
                const std::vector<double>& errors) {
   const Candidate& chosen = selection.chosen.fit.candidate;
   const Hypothesis& effect = chosen.effects[index];
+  // Where no time was left to refit the others, they are held.
   const Explanation without =
       !selection.without.empty() ? selection.without[index]
       : chosen.effects.size() == 1
           ? selection.nothing
-          : explain(selection.problem, fit(selection.problem, chosen.without(index)));
+          : explain(selection.problem, evaluated(selection.problem, chosen.without(index)));
   Cause cause;
   cause.effect = effect.effect;
   cause.sensor = effect.sensor;

@@ -163,64 +163,31 @@ Diagnosis with_nearest_hold(const Experiment& experiment, const std::vector<Hypo
   return tried[1].causes.size() < tried[0].causes.size() ? tried[1] : tried[0];
 }
 
-/// One of the selections that a diagnosis is made of.
-struct JudgedSelection {
-  const Selection& selection;
-  Posterior posterior;
-  std::vector<double> errors;  ///< of nuisances and parameters of what is chosen
-
-  JudgedSelection(const Selection& made, const SelectionOptions& options)
-      : selection(made),
-        posterior(posterior_of(made)),
-        errors(standard_errors(made.problem, made.chosen, options.further_modes)) {}
-
-  const Candidate& chosen() const { return selection.chosen.fit.candidate; }
-  std::vector<Cause> causes() const { return causes_of(selection, posterior, errors); }
-};
-
-/// Of the nuisances, which each selection estimates: the smaller one.
-std::vector<double> least_errors(const std::vector<JudgedSelection>& judged) {
-  std::vector<double> errors = judged.back().errors;
-  for (const JudgedSelection& one : judged) {
-    const std::size_t count = std::min(errors.size(), one.chosen().nuisances.size());
-    for (std::size_t i = 0; i < count; ++i) errors[i] = std::min(errors[i], one.errors[i]);
-  }
-  return errors;
-}
-
 /// Those that were fitted and not named, without those that cannot be simulated. Throws Cancelled
 /// after the deadline.
-void add_near_misses(const PredictedSelection& predicted, const JudgedSelection& judged,
-                     const Deadline& deadline, std::vector<NearMiss>& found) {
-  const Selection& selection = judged.selection;
+std::vector<NearMiss> near_misses(const PredictedSelection& predicted, const Posterior& posterior,
+                                  const Deadline& deadline) {
+  const Selection& selection = predicted.selection;
   const Problem problem = predicted.simulated.until(deadline);
+  std::vector<NearMiss> found;
   for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {
       const Candidate& candidate = one.fit.candidate;
       if (candidate.labels() == selection.chosen.fit.candidate.labels()) continue;
       double error = one.estimation.relative_error;
       if (!is_simulation(predicted.predictor)) {
-        const bool is_whole = &selection != &predicted.selection;
-        const Candidate whole = is_whole ? candidate : predicted.whole(candidate);
-        const auto left = problem.residuals(whole, problem.estimation_runs());
+        const auto left = problem.residuals(candidate, problem.estimation_runs());
         if (!left) continue;
         error =
             misfit(problem.observations(), problem.experiment(), *left, problem.estimation_runs())
                 .relative_error;
       }
       found.push_back({fmt::format("{}", fmt::join(candidate.labels(), " + ")),
-                       judged.posterior.of_set(candidate),
+                       posterior.of_set(candidate),
                        share_taken(selection.nothing.estimation, one.estimation),
                        lead(one, selection.nothing), error});
     }
   }
-}
-
-std::vector<NearMiss> near_misses(const PredictedSelection& predicted,
-                                  const std::vector<JudgedSelection>& all,
-                                  const Deadline& deadline) {
-  std::vector<NearMiss> found;
-  for (const JudgedSelection& judged : all) add_near_misses(predicted, judged, deadline, found);
   std::ranges::stable_sort(found, [](const NearMiss& one, const NearMiss& other) {
     return std::pair(-one.probability, one.error) < std::pair(-other.probability, other.error);
   });
@@ -252,16 +219,17 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.predictor = predicted.predictor;
   made.predictor_reason = predicted.reason;
   made.disturbance = disturbance_gain(selection);
-  const Candidate chosen = predicted.whole(selection.chosen.fit.candidate);
-  std::vector<JudgedSelection> judged;
-  if (predicted.by_motion) judged.emplace_back(*predicted.by_motion, options);
-  judged.emplace_back(selection, options);
-  double nothing_else = 1.0;
-  for (const JudgedSelection& one : judged) {
-    std::ranges::move(one.causes(), std::back_inserter(made.causes));
-    nothing_else *= 1.0 - one.posterior.of_something_else();
+  if (made.predictor == PredictorKind::torque_balance) {
+    made.torque = selection.problem.has_validation_runs()
+                      ? gain_between(selection.nothing.validation, selection.chosen.validation)
+                      : gain_between(selection.nothing.estimation, selection.chosen.estimation);
   }
-  made.something_else = 1.0 - nothing_else;
+  const Candidate& chosen = selection.chosen.fit.candidate;
+  const Posterior posterior = posterior_of(selection);
+  const std::vector<double> errors =
+      standard_errors(selection.problem, selection.chosen, options.further_modes);
+  made.causes = causes_of(selection, posterior, errors);
+  made.something_else = posterior.of_something_else();
   say_timing(experiment, selection, made.notices);
   if (is_by_motion) {
     made.notices.push_back(
@@ -282,8 +250,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.is_tested_by_filter = is_by_filter;
   made.estimation_test = tested.estimation_test;
   made.validation_test = tested.validation_test;
-  made.converged = std::ranges::all_of(
-      judged, [](const JudgedSelection& one) { return one.selection.chosen.fit.converged; });
+  made.converged = selection.chosen.fit.converged;
   made.evaluations = selection.chosen.fit.evaluations;
   arm::Arm arm_of_effects = chosen.extend(problem.experiment().arm);
   arm_of_effects.relative_uncertainties = experiment.arm.relative_uncertainties;
@@ -331,11 +298,8 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   const Eigen::VectorXd errors_of_effects = errors_of(residuals_of_effects);
   made.overlays = overlays(problem.observations(), before, after);
   std::optional<RunDrift> drift;
-  in_time("the estimates of each run", [&] {
-    const bool is_of_motion = judged.size() > 1 && judged.back().chosen().effects.empty();
-    const JudgedSelection& leading = is_of_motion ? judged.front() : judged.back();
-    drift = drift_of(leading.selection, made.verdict, leading.causes(), last);
-  });
+  in_time("the estimates of each run",
+          [&] { drift = drift_of(selection, made.verdict, made.causes, last); });
   in_time("the symptoms", [&] {
     made.symptoms = symptoms_of({problem, before, after, chosen}, std::move(drift), last);
     if (!made.symptoms.is_complete) left_out.emplace_back("all symptoms");
@@ -348,24 +312,22 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     statements.push_back(balance_symptom(*predicted.balance));
     sort_by_significance(statements);
   }
-  made.refitted =
-      refitted_numbers(problem.experiment().arm, chosen.nuisances, least_errors(judged));
+  made.refitted = refitted_numbers(problem.experiment().arm, chosen.nuisances, errors);
   if (is_open) {
     in_time("the place of the missing force", [&] {
       made.missing_force = missing_force(problem, arm_of_effects, errors_of_effects, last);
     });
   }
-  const Problem& filtered = predicted.balance ? *predicted.balance : selection.problem;
-  if (filtered.predictor().noise()) {
+  if (selection.problem.predictor().noise()) {
     in_time("the prediction errors", [&] {
       made.prediction_errors =
-          prediction_errors(filtered.until(last), experiment.arm, made.extended_arm);
+          prediction_errors(selection.problem.until(last), experiment.arm, made.extended_arm);
     });
   }
   made.posterior = posterior_sets(predicted, options, last);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors, last);
   if (is_open) {
-    in_time("the near misses", [&] { made.near_misses = near_misses(predicted, judged, last); });
+    in_time("the near misses", [&] { made.near_misses = near_misses(predicted, posterior, last); });
   }
   ReportedWork work(progress, options.deadline);
   try {

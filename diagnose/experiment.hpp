@@ -29,8 +29,11 @@ struct Experiment {
   std::vector<std::string> notices;          ///< what was assumed or left out, a sentence each
   std::vector<AcceptedFinding> accepted;     ///< faults that count as none
   /// Of an experiment that is driven by motion (driven_by_motion), one a run, all of which are
-  /// `time` runs: the hub turns like that, and no torque has any influence. Else empty.
+  /// `time` runs: the hub turns like that, whatever the torque. Else empty.
   std::vector<MeasuredMotion> motions = {};
+  /// Of an experiment that is driven by motion: the torque that the motion takes is judged by the
+  /// recorded one, in a channel behind those of the sensors (balanced_at_hub).
+  bool judges_torque = false;
 };
 
 /// The arm of a run: with the run's payload in place of its own where it has one.

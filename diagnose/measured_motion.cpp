@@ -90,6 +90,10 @@ class PenalisedFit {
     values_ = solved(readings_);
   }
   const Eigen::VectorXd& values() const { return values_; }
+  /// Returns what takes the readings to the values, for another signal.
+  Eigen::VectorXd filtered(const Eigen::VectorXd& signal) const {
+    return solved(weights_.cwiseProduct(signal));
+  }
   double variance() const {
     const double squares = (readings_ - weights_.cwiseProduct(values_)).squaredNorm() +
                            penalty_ * (differences_ * values_).squaredNorm();
@@ -215,11 +219,21 @@ SmoothedReadings smooth(const std::vector<double>& readings, int differences, Be
     fit.take(std::exp(log_penalty));
     error = fit.draw(random);
   }
-  const Eigen::VectorXd& values = fit.values();
+  const auto shared = std::make_shared<const PenalisedFit>(std::move(fit));
+  const Eigen::VectorXd& values = shared->values();
   return {{values.begin(), values.end()},
-          std::sqrt(fit.variance()),
+          std::sqrt(shared->variance()),
           std::exp(log_penalty),
-          {error.begin(), error.end()}};
+          {error.begin(), error.end()},
+          [shared](const std::vector<double>& signal) {
+            const auto count = std::ssize(signal);
+            // A part goes on as it ends.
+            Eigen::VectorXd whole =
+                Eigen::VectorXd::Constant(shared->values().size(), signal.back());
+            whole.head(count) = Eigen::VectorXd::Map(signal.data(), count);
+            const Eigen::VectorXd made = shared->filtered(whole).head(count);
+            return std::vector<double>(made.begin(), made.end());
+          }};
 }
 
 MeasuredMotion motion_of_hub(const measured::Channel& read, double period_s, bool from_rest) {
@@ -238,7 +252,7 @@ MeasuredMotion motion_of_hub(const measured::Channel& read, double period_s, boo
     smoothed.error = integral_of(smoothed.error, period_s);
   }
   return {sensor, smoothed.noise, motion_by_angles(smoothed.values, period_s, from_rest),
-          motion_by_angles(smoothed.error, period_s, from_rest)};
+          motion_by_angles(smoothed.error, period_s, from_rest), std::move(smoothed.filtered)};
 }
 
 }  // namespace flexarm::diagnose

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -12,10 +13,14 @@ namespace flexarm::diagnose {
 /// The motion of a hub: a cubic spline of its angle, whose second derivative is linear between
 /// samples.
 struct PrescribedMotion {
-  double angle_rad = 0.0;           ///< at the first sample
-  double velocity_rad_per_s = 0.0;  ///< likewise
+  double angle_rad = 0.0;                            ///< at the first sample
+  double velocity_rad_per_s = 0.0;                   ///< likewise
   std::vector<double> acceleration_rad_per_s2 = {};  ///< a value a sample
 };
+
+/// Returns what smoothing readings makes of another signal with as many samples, or of its first
+/// ones. Concurrent calls are safe.
+using ReadingFilter = std::function<std::vector<double>(const std::vector<double>&)>;
 
 /// Readings without their noise, by penalised least squares [Whittaker1923]: the values
 /// that make
@@ -33,6 +38,7 @@ struct SmoothedReadings {
   double penalty = 0.0;  ///< mu
   /// A draw of the error of `values` under that likelihood: what is wrong with them may look so.
   std::vector<double> error;
+  ReadingFilter filtered;
 };
 
 /// What is known of a reading before the first: nothing, that it was the same all the time, or that
@@ -50,6 +56,7 @@ struct MeasuredMotion {
   double noise = 0.0;  ///< standard deviation of its readings, in its unit
   PrescribedMotion motion;
   PrescribedMotion error;  ///< a draw of what may be wrong with it
+  ReadingFilter filtered;
 };
 
 /// `read` are readings of a hub angle or velocity, without what its chain does to them, a value

@@ -20,7 +20,7 @@ bool is_of_hub(const measured::Channel& channel) {
 
 /// Of a run, by its angle before its velocity.
 MeasuredMotion measured_motion(const measured::TimeRecord& record, const measured::Run& run,
-                               const arm::Arm& arm) {
+                               const arm::Arm& arm, std::string_view predictor) {
   auto seen = std::ranges::find_if(record.channels, [](const measured::Channel& channel) {
     return channel.sensor.kind == arm::SensorKind::hub_angle;
   });
@@ -28,9 +28,9 @@ MeasuredMotion measured_motion(const measured::TimeRecord& record, const measure
   const auto chain = response::chain_of(response::take_apart(arm).sensor_chains, seen->sensor);
   if (chain.delay_s != 0.0 || chain.lag_s != 0.0) {
     throw arm::InputError(fmt::format(
-        "predictor driven_by_motion: the arm file has {} with a delay or a lag; its readings must "
-        "be those of their instants",
-        arm::to_string(seen->sensor)));
+        "predictor {}: the arm file has {} with a delay or a lag; its readings must be those of "
+        "their instants",
+        predictor, arm::to_string(seen->sensor)));
   }
   measured::Channel read = *seen;
   for (double& value : read.values) value = (value - chain.offset) / chain.gain;
@@ -38,14 +38,12 @@ MeasuredMotion measured_motion(const measured::TimeRecord& record, const measure
                        run.initial == measured::InitialState::rest);
 }
 
-}  // namespace
-
-Experiment driven_by_motion(const Experiment& experiment) {
-  arm::require_beam(experiment.arm, "predictor driven_by_motion");
+/// Returns the experiment with the hub's motion as input, for a predictor of that name.
+Experiment with_motions(const Experiment& experiment, std::string_view predictor) {
   Experiment made = without_controllers(experiment);
   for (auto& [run, data] : made.runs) {
-    const auto refused = [&run = run](std::string_view why) {
-      return arm::InputError(fmt::format("predictor driven_by_motion: run {}: {}", run.id, why));
+    const auto refused = [&run = run, predictor](std::string_view why) {
+      return arm::InputError(fmt::format("predictor {}: run {}: {}", predictor, run.id, why));
     };
     auto* record = std::get_if<measured::TimeRecord>(&data);
     if (record == nullptr) {
@@ -53,12 +51,28 @@ Experiment driven_by_motion(const Experiment& experiment) {
     }
     const auto of_hub = std::ranges::count_if(record->channels, is_of_hub);
     if (of_hub == 0) throw refused("needs hub_angle or hub_velocity");
-    if (of_hub == std::ssize(record->channels)) {
-      throw refused("needs a sensor beside those of the hub");
-    }
-    made.motions.push_back(measured_motion(*record, run, arm_in(experiment, run)));
+    made.motions.push_back(measured_motion(*record, run, arm_in(experiment, run), predictor));
     std::erase_if(record->channels, is_of_hub);
   }
+  return made;
+}
+
+}  // namespace
+
+Experiment driven_by_motion(const Experiment& experiment) {
+  arm::require_beam(experiment.arm, "predictor driven_by_motion");
+  Experiment made = with_motions(experiment, "driven_by_motion");
+  for (const auto& [run, data] : made.runs) {
+    if (!std::get<measured::TimeRecord>(data).channels.empty()) continue;
+    throw arm::InputError(fmt::format(
+        "predictor driven_by_motion: run {}: needs a sensor beside those of the hub", run.id));
+  }
+  return made;
+}
+
+Experiment balanced_at_hub(const Experiment& experiment) {
+  Experiment made = with_motions(experiment, "torque_balance");
+  made.judges_torque = true;
   return made;
 }
 

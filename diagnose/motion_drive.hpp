@@ -16,6 +16,12 @@ namespace flexarm::diagnose {
 /// sensor that the arm file has with a delay or a lag.
 Experiment driven_by_motion(const Experiment& experiment);
 
+/// The experiment with the hub's motion as the input of each run, whose torque is then judged by
+/// the recorded one (Experiment::judges_torque), beside the sensors that are not the hub's. Throws
+/// InputError as driven_by_motion; an arm without a beam, and a run with sensors of the hub alone,
+/// are none of its reasons.
+Experiment balanced_at_hub(const Experiment& experiment);
+
 /// Whether a hypothesis changes what the arm shows at a given motion of its hub: not one that acts
 /// on the hub or its torque alone, or on a sensor of the hub.
 bool acts_beside_motion(const Hypothesis& hypothesis);

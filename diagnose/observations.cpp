@@ -207,7 +207,7 @@ Observations observe(const Experiment& experiment) {
     all.begin_run();
     const auto& [run, data] = experiment.runs[r];
     std::visit([&](const auto& own) { gather(all, r, own); }, data);
-    if (!run.controller) continue;
+    if (!run.controller && !experiment.judges_torque) continue;
     gather(all, r, std::string(kTorqueChannel), std::get<measured::TimeRecord>(data).torque_N_m);
   }
   return all.observations();

@@ -15,7 +15,8 @@
 
 namespace flexarm::diagnose {
 
-/// The channel of a controller's torque, behind those of the sensors.
+/// The channel of a torque that is judged, behind those of the sensors: a controller's, or that
+/// which a measured motion takes.
 inline constexpr std::string_view kTorqueChannel = "torque";
 
 /// The numbers that one sensor gave in one run, a stretch of the vectors of `Observations`:

@@ -86,21 +86,6 @@ bool is_whole(const PosteriorSet& set) {
   return std::ranges::all_of(set.parameters, is_known) && set.correlation.allFinite();
 }
 
-/// The effects of both, uncorrelated; the numbers of `whole`.
-PosteriorSet joined(const PosteriorSet& by_motion, std::size_t its_numbers, PosteriorSet whole) {
-  whole.effects.insert(whole.effects.begin(), by_motion.effects.begin(), by_motion.effects.end());
-  const auto first = by_motion.parameters.begin() + static_cast<std::ptrdiff_t>(its_numbers);
-  const auto added = static_cast<Index>(by_motion.parameters.end() - first);
-  const auto count = static_cast<Index>(whole.parameters.size());
-  whole.parameters.insert(whole.parameters.end(), first, by_motion.parameters.end());
-  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(count + added, count + added);
-  correlation.topLeftCorner(count, count) = whole.correlation;
-  correlation.bottomRightCorner(added, added) =
-      by_motion.correlation.bottomRightCorner(added, added);
-  whole.correlation = std::move(correlation);
-  return whole;
-}
-
 }  // namespace
 
 std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
@@ -116,32 +101,22 @@ std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
     PosteriorSet made = set_of(selection.problem, explanation, options.further_modes);
     if (made.parameters.empty() && !candidate.effects.empty()) return;
     const std::size_t numbers = made.parameters.empty() ? 0 : candidate.nuisances.size();
-    if (predicted.by_motion) {
-      const Explanation& chosen = predicted.by_motion->chosen;
-      const PosteriorSet moved =
-          set_of(predicted.by_motion->problem, chosen, options.further_modes);
-      if (!moved.parameters.empty()) {
-        made = joined(moved, chosen.fit.candidate.nuisances.size(), std::move(made));
-      }
-    }
     made.probability = probability;
     if (is_whole(made)) sets.push_back(with_effects_first(std::move(made), numbers));
   };
   const double of_chosen = posterior.of_set(selection.chosen.fit.candidate);
   add(selection.chosen, of_chosen > 0.0 ? of_chosen : 1.0);
-  if (!predicted.by_motion) {
-    std::vector<std::pair<double, const Explanation*>> others;
-    for (const auto* tried : {&selection.singles, &selection.combinations}) {
-      for (const Explanation& one : *tried) {
-        const double probability = posterior.of_set(one.fit.candidate);
-        if (probability >= kLeastSetProbability) others.emplace_back(probability, &one);
-      }
+  std::vector<std::pair<double, const Explanation*>> others;
+  for (const auto* tried : {&selection.singles, &selection.combinations}) {
+    for (const Explanation& one : *tried) {
+      const double probability = posterior.of_set(one.fit.candidate);
+      if (probability >= kLeastSetProbability) others.emplace_back(probability, &one);
     }
-    std::ranges::stable_sort(others, std::ranges::greater{}, &decltype(others)::value_type::first);
-    for (const auto& [probability, one] : others) {
-      if (is_over(deadline)) break;
-      add(*one, probability);
-    }
+  }
+  std::ranges::stable_sort(others, std::ranges::greater{}, &decltype(others)::value_type::first);
+  for (const auto& [probability, one] : others) {
+    if (is_over(deadline)) break;
+    add(*one, probability);
   }
   double sum = 0.0;
   for (const PosteriorSet& set : sets) sum += set.probability;

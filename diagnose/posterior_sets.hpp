@@ -37,9 +37,7 @@ struct PosteriorSet {
 };
 
 /// The chosen set first, then the others by descending probability, down to `kLeastSetProbability`
-/// of the sum. Where the hub was judged apart (PredictedSelection::by_motion) there is the chosen
-/// set alone, and estimates of the two selections are uncorrelated. After the deadline no further
-/// set is added.
+/// of the sum. After the deadline no further set is added.
 std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
                                          const SelectionOptions& options, const Deadline& deadline);
 inline constexpr double kLeastSetProbability = 0.01;

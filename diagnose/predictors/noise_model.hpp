@@ -17,8 +17,6 @@ struct NoiseModel {
   /// Standard deviation of a sensor's readings over that of its noise (Observations), 1 or more;
   /// 1 where none is given.
   std::map<std::string, double> reading_factors = {};
-  /// By torque balance: the unit of the residuals that the disturbance's estimates are.
-  std::optional<double> balance_unit_N_m = {};
   /// Of each run the standard deviation of white noise in its recorded torque (torque_noise.hpp).
   /// Where it is given the disturbance is that noise, held from sample to sample: `disturbance_N_m`
   /// and `correlation_time_s` have no influence, and no number of the model is estimated.

@@ -53,23 +53,6 @@ void predict(const arm::Arm& arm, std::size_t run, const measured::FrequencyReco
   }
 }
 
-/// Residuals of a torque balance, for the hub's innovations in `standardised`: the missing torque,
-/// and where friction of the arm holds the hub what that turned beyond `kFollows` standard
-/// deviations. The balance of a hub that rests says nothing of one that moved.
-Eigen::VectorXd balance_residuals(const response::FilteredRun& run, double unit_N_m,
-                                  const Eigen::VectorXd& standardised) {
-  constexpr double kFollows = 4.0;
-  Eigen::VectorXd made(standardised.size());
-  for (Index k = 0; k < made.size(); ++k) {
-    const auto sample = static_cast<std::size_t>(k);
-    const bool is_held = run.hub_velocity_rad_per_s[sample] == 0.0;
-    const double turned = is_held ? std::max(0.0, std::abs(standardised(k)) - kFollows) : 0.0;
-    const double missing = run.disturbance_N_m[sample] / unit_N_m;
-    made(k) = std::copysign(std::hypot(missing, turned), missing);
-  }
-  return made;
-}
-
 }  // namespace
 
 response::TorqueHold simulated_hold(measured::TorqueHold hold) {
@@ -96,6 +79,7 @@ Predictor::Predictor(const Experiment& experiment, const Observations& observati
     if (record == nullptr) continue;
     const arm::Payload payload = run.payload.value_or(experiment.arm.payload);
     const auto sensors = sensors_of(*record);
+    if (sensors.empty()) continue;  // a run whose torque alone is judged
     // A hub that is driven has an acceleration that is linear between samples.
     const auto hold = is_driven_by_motion(experiment) ? response::TorqueHold::first
                                                       : simulated_hold(run.torque_hold);
@@ -187,6 +171,7 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
         values.segment(first, count) =
             *(*shown_)[r].of(arm, [&](const arm::Arm&) { return simulated(r, simulation); });
       });
+  if (experiment_->judges_torque) predict_torques(arm, runs, values);
   predict_other_runs(arm, runs, values);
   return values;
 }
@@ -238,13 +223,6 @@ Eigen::VectorXd Predictor::residuals(const arm::Arm& arm, const std::vector<bool
     const double more = innovated[r].log_determinant - log_determinants_[r];
     auto part = made.segment(first, count);
     part = innovated[r].standardised;
-    const auto sensor = hub_sensor(r);
-    if (noise_->balance_unit_N_m && sensor) {
-      const RunInnovations& run = innovated[r];
-      const auto samples = std::ssize(run.filtered.disturbance_N_m);
-      auto of_hub = part.segment(*sensor * samples, samples);
-      of_hub = balance_residuals(run.filtered, *noise_->balance_unit_N_m, of_hub);
-    }
     part *= std::exp(more / (2.0 * static_cast<double>(innovated[r].count)));
   }
   return made;
@@ -274,34 +252,41 @@ std::vector<response::ErrorsAhead> Predictor::errors_ahead(
   return made;
 }
 
-Predictor::BalancedTorque Predictor::balanced_torque(std::size_t r) const {
-  const Condition& condition = *std::ranges::find_if(conditions_, [r](const Condition& one) {
-    return std::ranges::find(one.runs, r) != one.runs.end();
+BalancedRun Predictor::balanced(const arm::Arm& arm, std::size_t r) const {
+  const auto& [run, data] = experiment_->runs[r];
+  arm::Arm with_payload = arm;
+  with_payload.payload = run.payload.value_or(arm.payload);
+  const response::ArmParts parts = response::take_apart(with_payload);
+  return balance(*models_->of(parts, {}), parts, std::get<measured::TimeRecord>(data),
+                 simulated_hold(run.torque_hold), experiment_->motions[r]);
+}
+
+void Predictor::predict_torques(const arm::Arm& arm, const std::vector<bool>& runs,
+                                Eigen::VectorXd& values) const {
+  std::vector<BalancedRun> balances(runs.size());
+  in_parallel(runs.size(), [&](std::size_t r) {
+    arm::require_time(deadline_);
+    if (runs[r]) balances[r] = balanced(arm, r);
   });
-  arm::Arm with_payload = experiment_->arm;
-  with_payload.payload = condition.payload;
-  const response::ArmParts all = response::take_apart(with_payload);
-  response::ArmParts parts;
-  parts.linear = all.linear;
-  parts.sensor_chains = all.sensor_chains;
-  parts.disturbance = {noise_->correlation_time_s};
-  const auto model = models_->of(parts, condition.sensors);
-  const response::ArmSimulator simulation(*model, parts, condition.sensors, condition.options);
-  const RecordedRun run = recorded(r, *noise_);
-  const response::FilterGains steady{
-      {}, response::filter_gain(simulation.sampled(run.process, run.deviations))};
-  // A torque that is linear between samples rises from the sample before.
-  const std::size_t samples = run.torque_N_m.size();
-  std::vector<double> pulse_N_m(samples + 1);
-  pulse_N_m[1] = 1.0;
-  const auto nothing = Eigen::MatrixXd::Zero(std::ssize(pulse_N_m), run.deviations.size());
-  const auto filtered = simulation.filtered(pulse_N_m, nothing, steady);
-  BalancedTorque made{.first =
-                          stretch(r).first + hub_sensor(r).value() * static_cast<Index>(samples)};
-  for (std::size_t k = 1; k < pulse_N_m.size(); ++k) {
-    made.pulse_response.push_back(-filtered.disturbance_N_m[k] / *noise_->balance_unit_N_m);
+  double recorded = 0.0;
+  double transmitted = 0.0;
+  const auto map = [](const std::vector<double>& torque_N_m) {
+    return Eigen::VectorXd::Map(torque_N_m.data(), std::ssize(torque_N_m));
+  };
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r]) continue;
+    recorded +=
+        map(std::get<measured::TimeRecord>(experiment_->runs[r].data).torque_N_m).squaredNorm();
+    transmitted += map(balances[r].transmitted_N_m).squaredNorm();
   }
-  return made;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r]) continue;
+    const auto [first, count] = stretch(r);
+    const auto samples = std::ssize(balances[r].missing_N_m);
+    const Index at = first + count - samples;
+    values.segment(at, samples) = observations_.values.segment(at, samples) +
+                                  std::sqrt(recorded / transmitted) * map(balances[r].missing_N_m);
+  }
 }
 
 std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
@@ -317,7 +302,7 @@ Eigen::VectorXd change_by_motion_error(const Experiment& experiment,
                                        const Observations& observations, int flexible_modes,
                                        const arm::Deadline& deadline) {
   Experiment displaced = experiment;
-  for (auto& [sensor, noise, motion, error] : displaced.motions) {
+  for (auto& [sensor, noise, motion, error, filtered] : displaced.motions) {
     motion.angle_rad += error.angle_rad;
     motion.velocity_rad_per_s += error.velocity_rad_per_s;
     for (std::size_t k = 0; k < motion.acceleration_rad_per_s2.size(); ++k) {

@@ -9,6 +9,7 @@
 #include "diagnose/predictors/modal_models.hpp"
 #include "diagnose/predictors/noise_model.hpp"
 #include "diagnose/predictors/run_filters.hpp"
+#include "diagnose/predictors/torque_balance.hpp"
 #include "response/time/arm_simulator.hpp"
 
 #include <Eigen/Core>
@@ -33,11 +34,12 @@ response::TorqueHold simulated_hold(measured::TorqueHold hold);
 ///   the run states its controller, the reference alone drives both;
 /// - driven by motion, in an experiment that is (driven_by_motion): the hub turns as measured, and
 ///   what acts on it has no influence;
+/// - torque balance at the hub, in an experiment that judges the torque besides (balanced_at_hub):
+///   the recorded torque and what is missing for the motion (BalancedRun). That is relative to the
+///   torque that reaches the hub: a gain near 0, or a dead zone above all of it, would leave
+///   nothing to balance;
 /// - stochastic grey box, with a noise model, for runs that state no controller: a Kalman filter
-///   predicts each sample from all samples before it [Kristensen2004];
-/// - torque balance at the hub, with a noise model that has a unit for it: the torque that is
-///   missing for the motion as that filter has it. The recorded torque and every law of the hub
-///   pass the same filter, as in inverse dynamics with parallel filtering [KhalilDombre2002].
+///   predicts each sample from all samples before it [Kristensen2004].
 class Predictor {
  public:
   /// `flexible_modes` move in a simulated run, which is stepped as response::options_of_fit where
@@ -63,13 +65,6 @@ class Predictor {
   /// for the n readings of a run that are not left out, S the covariance of their innovations by
   /// `arm` and S_0 that by the experiment's arm: the arm that makes their squares least is the most
   /// likely one where the scale of all noise is free.
-  ///
-  /// By torque balance the estimates of the disturbance in its unit are in the place of the
-  /// innovations of the hub's sensor, with what a hub that friction holds turned beyond chance; the
-  /// other sensors have those that the hub's motion leaves. The fast part of a disturbance does not
-  /// hide the slow one then, as it does in innovations, which are its changes from sample to
-  /// sample. The factor counts there as well: a filter that sees the hub later, or less, estimates
-  /// a smaller disturbance.
   Eigen::VectorXd residuals(const arm::Arm& arm, const std::vector<bool>& runs) const;
 
   /// By a noise model, which need not be the predictor's: of each of these `time` runs; empty for
@@ -83,21 +78,14 @@ class Predictor {
       const arm::Arm& arm, const std::vector<bool>& runs,
       const std::vector<response::StartsAhead>& starts) const;
 
-  /// By torque balance, of a `time` run: which residuals are those of the missing torque, and what
-  /// a torque of 1 N m at the first sample, 0 at the others and held as the run's torque, takes
-  /// from them, a value a sample. It is that of the experiment's arm without forces that are not
-  /// linear, long after the filter's start.
-  struct BalancedTorque {
-    Eigen::Index first = 0;  ///< of the residuals
-    std::vector<double> pulse_response = {};
-  };
-  BalancedTorque balanced_torque(std::size_t run) const;
+  /// Returns the balance of the hub's torque in a `time` run of an experiment that is driven by
+  /// motion. Throws InputError for an arm that has none.
+  BalancedRun balanced(const arm::Arm& arm, std::size_t run) const;
 
   int flexible_modes() const { return flexible_modes_; }
   const std::optional<NoiseModel>& noise() const { return noise_; }
   const arm::Deadline& deadline() const { return deadline_; }
   void set_deadline(const arm::Deadline& deadline) { deadline_ = deadline; }
-  bool is_torque_balance() const { return noise_ && noise_->balance_unit_N_m; }
 
  private:
   /// Runs that one simulation serves.
@@ -115,6 +103,8 @@ class Predictor {
   /// With a disturbance of the hub torque where there is `noise`. `use` is called concurrently.
   void for_each_time_run(const arm::Arm& arm, const std::vector<bool>& runs,
                          const NoiseModel* noise, const UseSimulation& use) const;
+  void predict_torques(const arm::Arm& arm, const std::vector<bool>& runs,
+                       Eigen::VectorXd& values) const;
   void predict_other_runs(const arm::Arm& arm, const std::vector<bool>& runs,
                           Eigen::VectorXd& values) const;
   /// A `time` run with the readings' deviations by `noise`; it refers to this object.

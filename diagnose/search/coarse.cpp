@@ -38,6 +38,7 @@ void thin(measured::ModalTable& /*table*/, std::size_t /*samples*/) {}
 Experiment estimation_part(const Experiment& experiment) {
   Experiment made;
   made.arm = experiment.arm;
+  made.judges_torque = experiment.judges_torque;
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     if (experiment.runs[r].run.purpose != measured::Purpose::estimation) continue;
     made.runs.push_back(experiment.runs[r]);

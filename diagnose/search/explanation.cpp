@@ -10,12 +10,8 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Mean square of residuals of a torque balance below which none is any better.
-constexpr double kLeastBalance = 1e-12;
-
 /// With what a stochastic grey-box model leaves to the disturbance, if the problem has one. What
-/// is left is then noise where the innovations are white and the disturbance is negligible. By
-/// torque balance the scale of each channel's residuals is free.
+/// is left is then noise where the innovations are white and the disturbance is negligible.
 void weigh_disturbance(const Problem& problem, const Candidate& candidate,
                        const Eigen::VectorXd& residuals, const std::vector<bool>& runs,
                        Misfit& misfit, ResidualTest& test) {
@@ -23,18 +19,10 @@ void weigh_disturbance(const Problem& problem, const Candidate& candidate,
   if (!noise || noise->is_torque_noise() || misfit.count == 0.0) return;
   misfit.disturbance = problem.disturbance_left(candidate, runs);
   double& likelihood = misfit.disturbance->minus_two_log_likelihood;
-  const bool is_balance = noise->balance_unit_N_m.has_value();
-  if (is_balance) likelihood = 0.0;
   for (const ObservedChannel& channel : problem.observations().channels) {
     if (!runs[channel.run]) continue;
-    const bool is_time = problem.experiment().runs[channel.run].run.kind == measured::RunKind::time;
-    const auto n = static_cast<double>(channel.used());
-    const double squares = residuals.segment(channel.first, channel.count).squaredNorm();
-    if (!is_time) {
-      likelihood += squares;
-    } else if (is_balance) {
-      likelihood += n * std::log(std::max(squares / n, kLeastBalance));
-    }
+    if (problem.experiment().runs[channel.run].run.kind == measured::RunKind::time) continue;
+    likelihood += residuals.segment(channel.first, channel.count).squaredNorm();
   }
   test.level_p_value = misfit.disturbance->relative() <= kNegligibleDisturbance ? 1.0 : 0.0;
 }

@@ -20,26 +20,23 @@ struct PredictedSelection {
   Selection selection;
   PredictorKind predictor = PredictorKind::output_error;
   std::string reason;  ///< a sentence; empty without `time` runs
-  /// Where the hub was judged apart, by torque balance: the selection by the measured motion, of
-  /// what acts on beam, payload and sensors. `selection` is then of the arm with its effects.
-  std::optional<Selection> by_motion = {};
-  /// The torque balance, where one was formed: with the noise of what was selected by it.
+  /// The torque balance that it was selected by.
   std::optional<Problem> balance = {};
   /// By that balance, where it was looked for already.
   std::optional<SoughtLaw> law = {};
   /// By simulation, the noise of its channels as the selection by simulation left it: what
   /// simulations are compared with the data by.
   Problem simulated;
-  /// A candidate of `selection` with the effects of `by_motion`: one of the experiment's arm.
-  Candidate whole(Candidate candidate) const;
   /// With the noise of the recorded torques as the whole disturbance: the residuals of the filter,
   /// not those of a simulation, are then what may be noise.
   bool is_by_torque_noise() const {
     const auto& noise = selection.problem.predictor().noise();
     return noise && noise->is_torque_noise();
   }
-  /// Neither `selection` nor `by_motion` has a cause.
-  bool names_nothing() const { return whole(selection.chosen.fit.candidate).effects.empty(); }
+  bool names_nothing() const { return selection.chosen.fit.candidate.effects.empty(); }
+  /// Returns the NRMSE of a simulation of the judged runs with the chosen effects, or with the law
+  /// of hub torque in their place.
+  double simulated_error() const;
   /// `law`, or now. `balance` must have been formed.
   std::optional<EmpiricalLaw> law_beside_causes(const Deadline& deadline) const;
 };
@@ -70,10 +67,15 @@ PredictedSelection select_by_simulation(const SelectionTask& task, const Problem
 PredictedSelection select_by_motion(const SelectionTask& task, const Experiment& experiment,
                                     const DiagnosisProgress& progress);
 
-/// The selection by a predictor with a noise model. Empty where that is not asked for and the
-/// disturbance of the arm that simulation made is small. A torque balance that is not asked for is
-/// of the hub alone, with what the measured motion says of the rest, where that can be the input.
-/// Throws Cancelled, and InputError where no Kalman filter can be formed.
+/// The selection by the balance of the hub's torque (balanced_at_hub), of runs that are decimated
+/// to options.filtered_samples. Throws InputError where no run shows the hub, and Cancelled.
+PredictedSelection select_by_balance(const SelectionTask& task,
+                                     const PredictedSelection& by_simulation,
+                                     const DiagnosisProgress& progress);
+
+/// The selection by a stochastic grey box. Empty where that is not asked for and the disturbance of
+/// the arm that simulation made is small. Throws Cancelled, and InputError where no Kalman filter
+/// can be formed.
 std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,
                                                    const PredictedSelection& by_simulation,
                                                    const DiagnosisProgress& progress);

@@ -1,6 +1,7 @@
 #include "diagnose/search/predictor_choice.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/sensor.hpp"
 #include "diagnose/predictors/response_runs.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace flexarm::diagnose {
 
@@ -20,6 +23,9 @@ constexpr double kAbout = 1.05;
 
 /// NRMSE of a simulation that predicts little, with what it names.
 constexpr double kUseless = 0.5;
+
+/// NRMSE of a simulation that says less of the data than their means do.
+constexpr double kRanAway = 1.0;
 
 /// NRMSE of a loop that is not that of the data.
 constexpr double kDiverged = 10.0;
@@ -76,21 +82,61 @@ bool responses_are_better(const PredictedSelection& by_responses, const Predicte
   return simulated.judged_error(refitted.extend(arm)) <= kAbout * error;
 }
 
-/// Of a simulation with the chosen effects.
-double simulated_error(const PredictedSelection& made) {
-  const Candidate chosen = made.whole(made.selection.chosen.fit.candidate);
-  return made.simulated.judged_error(chosen.extend(made.simulated.experiment().arm));
+/// Returns the error of the judged runs as the predictor has it: of a torque balance that of the
+/// torque for the measured motion, of a filter the torque that is missing, both relative to the
+/// torque. A simulation adds up what is missing, and may run away.
+double own_error(const PredictedSelection& made) {
+  const Explanation& chosen = made.selection.chosen;
+  const Misfit& judged = chosen.validation.count > 0.0 ? chosen.validation : chosen.estimation;
+  if (made.law && made.law->found) return made.simulated_error();
+  if (made.balance) return judged.relative_error;
+  return judged.disturbance ? judged.disturbance->estimated_relative() : made.simulated_error();
 }
 
-/// Of a simulation with what a filter found: the chosen effects, or the law of hub torque in their
-/// place.
-double error_by_filter(const PredictedSelection& made) {
-  return made.law && made.law->found ? made.law->found->error_after : simulated_error(made);
+/// Returns whether every run shows the motion of the hub.
+bool shows_hub(const Experiment& experiment) {
+  return std::ranges::all_of(experiment.runs, [](const auto& run) {
+    const auto* record = std::get_if<measured::TimeRecord>(&run.data);
+    return record != nullptr && std::ranges::any_of(record->channels, [](const auto& channel) {
+             return arm::is_collocated(channel.sensor);
+           });
+  });
 }
 
-/// Selects by responses or by a filter where `made` by simulation does not leave noise. Throws
-/// Cancelled after the deadline, with `made` as it was.
-PredictedSelection select_beyond_simulation(PredictedSelection& made, const SelectionTask& task,
+/// Returns the selection by the torque balance with part of the time; empty where not every run
+/// shows the hub, or the time is over.
+std::optional<PredictedSelection> balance_before_simulation(const SelectionTask& task,
+                                                            const Problem& problem,
+                                                            const DiagnosisProgress& progress) {
+  if (!shows_hub(problem.experiment())) return std::nullopt;
+  SelectionOptions options = task.options;
+  options.deadline = halfway(options.deadline);
+  try {
+    return select_by_balance({task.hypotheses, options},
+                             {.selection = Selection{problem}, .reason = "", .simulated = problem},
+                             progress);
+  } catch (const arm::InputError&) {
+    return std::nullopt;  // a hub sensor that is late by the arm file
+  } catch (const Cancelled&) {
+    require_time(task.options.deadline);
+    return std::nullopt;
+  }
+}
+
+/// Selects by a filter, or by the torque balance where every run shows the hub. Empty where that
+/// has no use (select_by_filter). Throws InputError where neither can be formed.
+std::optional<PredictedSelection> select_at_hub(const SelectionTask& task,
+                                                const PredictedSelection& made,
+                                                const DiagnosisProgress& progress) {
+  if (!shows_hub(made.simulated.experiment())) return select_by_filter(task, made, progress);
+  return select_by_balance(task, made, progress);
+}
+
+/// Selects by responses or at the hub (`balanced`, where that was done) where `made` by simulation
+/// does not leave noise. Throws Cancelled after the deadline, with `made` as it was.
+PredictedSelection select_beyond_simulation(PredictedSelection& made,
+                                            std::optional<PredictedSelection> balanced,
+                                            const SelectionTask& task,
                                             const DiagnosisProgress& progress) {
   made.reason = "an unrecorded torque on the hub explains little of what it leaves";
   if (auto responses = select_by_responses(task, made, part_of(progress, 0.6, 0.7))) {
@@ -104,35 +150,37 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made, const Sele
     }
   }
   try {
-    auto filtered = select_by_filter(task, made, part_of(progress, 0.7, 1.0));
-    if (!filtered) return std::move(made);
-    Selection& other = filtered->selection;
-    if (other.end && filtered->names_nothing()) {
+    auto at_hub =
+        balanced ? std::move(balanced) : select_at_hub(task, made, part_of(progress, 0.7, 1.0));
+    if (!at_hub) return std::move(made);
+    at_hub->simulated = made.simulated;
+    Selection& other = at_hub->selection;
+    if (other.end && at_hub->names_nothing()) {
       made.reason = kNoTime;
       if (!made.selection.end) made.selection.end = other.end;
       return std::move(made);
     }
     // Only without causes: a cause that is named where such a law acts explains a part of it.
-    if (filtered->names_nothing() && filtered->balance) {
-      filtered->law = SoughtLaw{filtered->law_beside_causes(task.options.deadline)};
+    if (at_hub->names_nothing() && at_hub->balance) {
+      at_hub->law = SoughtLaw{at_hub->law_beside_causes(task.options.deadline)};
     }
-    const double by_filter = error_by_filter(*filtered);
-    const double by_simulation = simulated_error(made);
-    if (other.cancelled || by_filter <= by_simulation) {
+    const double error_at_hub = own_error(*at_hub);
+    const double error_of_simulation = own_error(made);
+    const std::string errors = fmt::format(
+        "it leaves {:.3g} % of the torque, a simulation {:.3g} "
+        "% of the signals",
+        100.0 * error_at_hub, 100.0 * error_of_simulation);
+    const bool is_better = at_hub->simulated_error() < error_of_simulation;
+    if (other.cancelled || error_at_hub <= error_of_simulation || is_better) {
       if (!other.end) other.end = made.selection.end;
-      return *std::move(filtered);
+      if (at_hub->balance) at_hub->reason = errors;
+      return *std::move(at_hub);
     }
-    const bool is_of_filed_arm =
-        !filtered->by_motion || filtered->by_motion->chosen.fit.candidate.effects.empty();
-    if (is_of_filed_arm) made.balance = filtered->balance;
-    made.reason = fmt::format(
-        "its residuals are not noise; with what a {} shows, which is not reported, NRMSE is "
-        "{:.3g} %, with this {:.3g} %",
-        filtered->predictor == PredictorKind::torque_balance ? "torque balance"
-                                                             : "stochastic grey box",
-        100.0 * by_filter, 100.0 * by_simulation);
+    if (at_hub->names_nothing()) made.balance = at_hub->balance;
+    made.reason = fmt::format("its residuals are not noise; a {} is not reported: {}",
+                              at_hub->balance ? "torque balance" : "stochastic grey box", errors);
   } catch (const arm::InputError& error) {
-    made.reason = fmt::format("no Kalman filter can be formed ({})", error.what());
+    made.reason = fmt::format("no other can be formed ({})", error.what());
   }
   return std::move(made);
 }
@@ -160,7 +208,8 @@ bool is_doubtful(const Selection& selection) {
 /// Selects with noise of the recorded torque where that leaves noise beside no effect, else by
 /// simulation. Where that does not leave noise, noise of the torque is tried beside the effects
 /// that it names. The other predictors are tried where it supports none, or errs by more than
-/// kUseless.
+/// kUseless. Where a simulation of the arm as filed runs away, the effects that the torque balance
+/// shows are what the search begins with.
 PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
@@ -169,7 +218,19 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
   if (!is_adequate(problem, task.options.deadline)) {
     if (auto noisy = beside({}, 0.0, 0.1)) return *std::move(noisy);
   }
-  PredictedSelection made = select_by_simulation(task, problem, part_of(progress, 0.1, 0.7));
+  std::optional<PredictedSelection> balanced;
+  SelectionOptions options = task.options;
+  try {
+    if (problem.until(options.deadline).judged_error(problem.experiment().arm) > kRanAway) {
+      balanced = balance_before_simulation(task, problem, part_of(progress, 0.1, 0.3));
+    }
+    if (balanced && balanced->selection.cancelled) return *std::move(balanced);
+    if (balanced) options.starts.push_back(balanced->selection.chosen.fit.candidate);
+  } catch (const Cancelled&) {
+    // The simulation says that no time is left.
+  }
+  PredictedSelection made =
+      select_by_simulation({task.hypotheses, options}, problem, part_of(progress, 0.3, 0.7));
   if (made.selection.cancelled) return made;
   if (made.selection.chosen.leaves_noise()) {
     made.reason = "its residuals are noise";
@@ -177,12 +238,12 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
   }
   const std::vector<Hypothesis> named = made.selection.chosen.fit.candidate.effects;
   try {
-    require_time(task.options.deadline);
-    if (!named.empty()) {
+    if (!balanced) require_time(task.options.deadline);
+    if (!named.empty() && !is_over(task.options.deadline)) {
       if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
     }
-    if (is_doubtful(made.selection) || simulated_error(made) > kUseless) {
-      return select_beyond_simulation(made, task, progress);
+    if (balanced || is_doubtful(made.selection) || made.simulated_error() > kUseless) {
+      return select_beyond_simulation(made, std::move(balanced), task, progress);
     }
     made.reason =
         "others are tried where a simulation supports no effect, or leaves half of the signal";
@@ -199,7 +260,9 @@ PredictedSelection select_by_asked_filter(const SelectionTask& task, const Probl
   PredictedSelection unsearched{
       .selection = Selection{problem}, .reason = "", .simulated = problem};
   try {
-    return *select_by_filter(task, unsearched, progress);
+    return task.options.predictor == PredictorKind::torque_balance
+               ? select_by_balance(task, unsearched, progress)
+               : *select_by_filter(task, unsearched, progress);
   } catch (const Cancelled&) {
     if (is_over(task.options.deadline)) {
       PredictedSelection made = select_by_simulation(task, problem, progress);

@@ -211,14 +211,8 @@ bool Problem::estimate_noise(const Candidate& candidate, std::function<void()> g
   const double before =
       estimator.disturbance(arm, estimation_runs_, present).minus_two_log_likelihood;
   NoiseEstimate found = estimator.model(arm, estimation_runs_, {present});
-  if (!present.balance_unit_N_m) {
-    found = estimator.with_modal_force(arm, estimation_runs_, found);
-  }
+  found = estimator.with_modal_force(arm, estimation_runs_, found);
   if (!(found.minus_two_log_likelihood < before - kMoreLikely)) return false;
-  if (present.balance_unit_N_m) {
-    found.model.balance_unit_N_m =
-        estimated_disturbance_N_m(predictor_, arm, estimation_runs_, found.model);
-  }
   predictor_ = predictor_with(predictor_.flexible_modes(), found.model);
   return true;
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -164,13 +165,23 @@ VectorXd damped_step(const MatrixXd& normal, const VectorXd& gradient, const Vec
 
 }  // namespace
 
-double price(const Hypothesis& effect) {
-  return -2.0 * std::log(effects::probability_of(effect.entry->prior));
+double price(const std::vector<Hypothesis>& effects) {
+  const auto price_of = [](effects::Likely prior) {
+    return -2.0 * std::log(effects::probability_of(prior));
+  };
+  double sum = 0.0;
+  std::set<effects::Family> families;
+  for (const Hypothesis& effect : effects) {
+    const effects::Family family = effect.entry->family;
+    sum += price_of(effect.entry->prior);
+    if (family == effects::Family::timing || family == effects::Family::sensor) continue;
+    if (!families.insert(family).second) sum += price_of(effects::Likely::possible);
+  }
+  return sum;
 }
 
 double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorXd& weights) {
-  double sum = 0.0;
-  for (const Hypothesis& effect : candidate.effects) sum += price(effect);
+  const double sum = price(candidate.effects);
   if (jacobian.cols() == 0) return sum;
   MatrixXd weighted = weights.cwiseSqrt().asDiagonal() * jacobian;
   weighted.rightCols(std::ssize(candidate.values)) *= kPlaceDeviation;

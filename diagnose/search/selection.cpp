@@ -80,7 +80,7 @@ Explanation explained(const Problem& problem, const ScoredFit& made, bool has_de
 /// show a higher level, at which a search ended too early, it is made again.
 FoundSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, ReportedWork& work) {
-  SetSearchOptions how_far;
+  SetSearchOptions how_far{.starts = options.starts};
   if (options.most_causes) how_far.most_effects = static_cast<std::size_t>(*options.most_causes);
   const Likelihood likelihood(problem, problem.estimation_runs());
   FoundSets sets = search_sets(likelihood, hypotheses, how_far, work);
@@ -266,6 +266,11 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     // Least squares are more exact than the likelihood of the search, which estimates the noise.
     made.chosen = explain(problem, fit(problem, best.candidate, {.work = &work}));
     made.chosen.score = best.score;
+  }
+  // After the deadline: each set that is kept costs simulations of all data.
+  if (made.end && made.evidence.empty()) {
+    sets.best.clear();
+    without.clear();
   }
   sets.best.insert(sets.best.begin(), best);
   keep_sets(made, sets.best, without);

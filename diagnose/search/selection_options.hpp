@@ -1,11 +1,13 @@
 #pragma once
 
+#include "diagnose/search/candidate.hpp"
 #include "diagnose/search/reported_work.hpp"
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace flexarm::diagnose {
 
@@ -56,6 +58,8 @@ struct SelectionOptions {
   std::optional<int> most_causes = {};
   /// Chosen by evidence (predictor_choice.hpp) unless given.
   std::optional<PredictorKind> predictor = {};
+  /// Sets that the search begins with, beside the arm as filed.
+  std::vector<Candidate> starts = {};
   /// A filter is tried where what output error leaves is a disturbance of the hub torque >= this
   /// part of the commanded torque's root mean square.
   double least_disturbance = 0.03;

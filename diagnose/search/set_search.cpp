@@ -325,7 +325,13 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     most /= options.halving;
     searched = rung.shortlist(beam.front(), most);
   };
+  const auto begin_with_starts = [&] {
+    for (const Candidate& start : options.starts) {
+      if (start.effects.size() <= options.most_effects) beam.push_back({.candidate = start});
+    }
+  };
   try {
+    begin_with_starts();
     std::size_t width = options.beam;
     std::unique_ptr<const PartOfData> part_for_rivals;  // null where all data are as short
     const std::size_t longest = longest_run(problem.experiment());
@@ -338,6 +344,7 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
       if (samples == options.rungs[1]) part_for_rivals = std::move(part);
     }
     work.tell("effects on all data", 0.5);
+    begin_with_starts();
     climb(likelihood, width, Climb::to_the_end);
     const bool is_noise = leaves_noise(likelihood, beam.front());
     if (is_noise && beam.front().candidate.effects.empty()) return {std::move(beam)};

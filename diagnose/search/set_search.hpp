@@ -14,6 +14,8 @@ struct SetSearchOptions {
   std::size_t beam = 3;   ///< sets that are kept at a time on the first rung; on others one is
   std::size_t looks = 6;  ///< moves of each that are fitted, the best by prediction
   std::size_t most_effects = std::numeric_limits<std::size_t>::max();  ///< of a set
+  /// Sets that the first rung and the last begin with, beside the arm as filed.
+  std::vector<Candidate> starts = {};
   /// Each rung is climbed with this part of the effects of the one below, the best by prediction.
   std::size_t halving = 2;
   /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is

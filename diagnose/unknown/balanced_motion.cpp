@@ -10,14 +10,23 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
-#include <variant>
 
 namespace flexarm::diagnose {
 
 namespace {
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+/// Samples of a mean. Noise of a motion that is differentiated twice is fast: over so many samples
+/// little of it is left.
+constexpr std::size_t kSamplesOfMean = 8;
+
+/// Adds the means of blocks of values.
+void append_means(std::vector<double>& all, const std::vector<double>& values) {
+  for (std::size_t first = 0; first < values.size(); first += kSamplesOfMean) {
+    const std::size_t count = std::min(kSamplesOfMean, values.size() - first);
+    double sum = 0.0;
+    for (std::size_t k = first; k < first + count; ++k) sum += values[k];
+    all.push_back(sum / static_cast<double>(count));
+  }
 }
 
 }  // namespace
@@ -25,38 +34,32 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 BalancedMotion balanced_motion(const Problem& balance, const arm::Arm& arm,
                                const std::vector<bool>& runs) {
   BalancedMotion motion;
-  bool has_angle = true;
-  const auto filtered = balance.predictor().innovations(arm, runs, *balance.predictor().noise());
-  for (std::size_t r = 0; r < filtered.size(); ++r) {
-    const response::FilteredRun& run = filtered[r].filtered;
-    if (run.disturbance_N_m.empty()) continue;
-    append(motion.disturbance_N_m, run.disturbance_N_m);
-    append(motion.velocity_rad_per_s, run.hub_velocity_rad_per_s);
-    const auto& record = std::get<measured::TimeRecord>(balance.experiment().runs[r].data);
-    const auto* angle = values_of(record, arm::SensorKind::hub_angle);
-    has_angle = has_angle && angle != nullptr;
-    if (has_angle) append(motion.angle_rad, *angle);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r]) continue;
+    const BalancedRun run = balance.predictor().balanced(arm, r);
+    append_means(motion.missing_N_m, run.missing_N_m);
+    append_means(motion.velocity_rad_per_s, run.velocity_rad_per_s);
+    append_means(motion.angle_rad, run.angle_rad);
   }
-  if (!has_angle) motion.angle_rad.clear();
   return motion;
 }
 
 Dependence dependence_on(const std::vector<double>& values,
-                         const std::vector<double>& disturbance_N_m) {
+                         const std::vector<double>& missing_N_m) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t k) { return std::isnan(values[k]); });
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return values[k]; });
   const std::size_t n = order.size();
   if (n < std::size_t{2} * kIntervals) return {};
-  Eigen::VectorXd left(std::ssize(disturbance_N_m));
-  std::ranges::copy(disturbance_N_m, left.begin());
+  Eigen::VectorXd left(std::ssize(missing_N_m));
+  std::ranges::copy(missing_N_m, left.begin());
   const double all = left.squaredNorm();
   for (std::size_t i = 0; i < kIntervals; ++i) {
     const std::size_t first = i * n / kIntervals;
     const std::size_t end = (i + 1) * n / kIntervals;
     double mean = 0.0;
-    for (std::size_t k = first; k < end; ++k) mean += disturbance_N_m[order[k]];
+    for (std::size_t k = first; k < end; ++k) mean += missing_N_m[order[k]];
     mean /= static_cast<double>(end - first);
     for (std::size_t k = first; k < end; ++k) left(static_cast<Eigen::Index>(order[k])) -= mean;
   }
@@ -72,22 +75,17 @@ Symptom balance_symptom(const Problem& balance) {
   const std::vector<bool> all(balance.experiment().runs.size(), true);
   const BalancedMotion motion = balanced_motion(balance, balance.experiment().arm, all);
   double squares = 0.0;
-  for (const double torque : motion.disturbance_N_m) squares += torque * torque;
-  const double rms_N_m = std::sqrt(squares / static_cast<double>(motion.disturbance_N_m.size()));
-  const Dependence on_velocity = dependence_on(motion.velocity_rad_per_s, motion.disturbance_N_m);
+  for (const double torque : motion.missing_N_m) squares += torque * torque;
+  const double rms_N_m = std::sqrt(squares / static_cast<double>(motion.missing_N_m.size()));
+  const Dependence on_velocity = dependence_on(motion.velocity_rad_per_s, motion.missing_N_m);
   std::string text = fmt::format(
       "Residual hub torque by torque balance: {:.3g} N m rms with the arm file. Its mean at each "
       "hub velocity is {} of its mean square",
       rms_N_m, percent(on_velocity.share));
-  double probability = on_velocity.probability;
-  std::size_t tests = 1;
-  if (!motion.angle_rad.empty()) {
-    const Dependence on_angle = dependence_on(motion.angle_rad, motion.disturbance_N_m);
-    text += fmt::format(", at each hub angle {}", percent(on_angle.share));
-    probability = std::min(probability, on_angle.probability);
-    ++tests;
-  }
-  return symptom(SymptomKind::hub_torque, text + ".", probability, tests);
+  const Dependence on_angle = dependence_on(motion.angle_rad, motion.missing_N_m);
+  text += fmt::format(", at each hub angle {}", percent(on_angle.share));
+  const double probability = std::min(on_velocity.probability, on_angle.probability);
+  return symptom(SymptomKind::hub_torque, text + ".", probability, 2);
 }
 
 }  // namespace flexarm::diagnose

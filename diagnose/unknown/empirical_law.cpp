@@ -1,7 +1,6 @@
 #include "diagnose/unknown/empirical_law.hpp"
 
 #include "arm/given_effects.hpp"
-#include "diagnose/predictors/noise_estimate.hpp"
 #include "diagnose/search/misfit.hpp"
 #include "diagnose/unknown/balanced_motion.hpp"
 
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -26,9 +26,9 @@ constexpr int kVelocities = 4;
 constexpr int kAngles = 17;
 constexpr int kFewVelocities = 2;
 constexpr int kFewAngles = 9;
-/// Gauss-Newton steps: the filter is linear in the torques but for friction that holds.
+/// Gauss-Newton steps: the balance is linear in the torques but for friction that holds.
 constexpr int kSteps = 2;
-/// Of a difference quotient, over the estimated disturbance.
+/// Of a difference quotient, over the missing torque.
 constexpr double kPart = 0.1;
 /// A place that no sample is near has the torque of its neighbour by this weight, over that of a
 /// mean place; by the second, which is far less, that of a side which no sample is on is 0.
@@ -90,8 +90,8 @@ Eigen::MatrixXd roughness(const arm::HubTorqueTable& table) {
   const std::size_t columns = table.columns();
   const std::size_t rows = std::max<std::size_t>(1, table.angle_rad.size());
   const auto& velocity = table.velocity_rad_per_s;
-  Eigen::MatrixXd made = Eigen::MatrixXd::Zero(static_cast<Index>(rows * columns),
-                                               static_cast<Index>(rows * columns));
+  Eigen::MatrixXd made =
+      Eigen::MatrixXd::Zero(static_cast<Index>(rows * columns), static_cast<Index>(rows * columns));
   const auto join = [&](std::size_t one, std::size_t other) {
     const auto i = static_cast<Index>(one);
     const auto j = static_cast<Index>(other);
@@ -114,7 +114,9 @@ Eigen::MatrixXd roughness(const arm::HubTorqueTable& table) {
 FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTable table,
                    double step_N_m) {
   const auto left_with = [&](const arm::HubTorqueTable& one) {
-    return balance.predictor().residuals(with_table(arm, one), balance.estimation_runs());
+    const auto left =
+        balanced_motion(balance, with_table(arm, one), balance.estimation_runs()).missing_N_m;
+    return Eigen::VectorXd(Eigen::VectorXd::Map(left.data(), std::ssize(left)));
   };
   const std::size_t places = std::max<std::size_t>(1, table.angle_rad.size()) * table.columns();
   table.torque_N_m.assign(places, 0.0);
@@ -155,19 +157,18 @@ std::vector<arm::HubTorqueTable> tables_for(const BalancedMotion& motion) {
   std::vector<arm::HubTorqueTable> tables = {
       {.velocity_rad_per_s = velocity_axis(motion, kVelocities, true)},
       {.velocity_rad_per_s = velocity_axis(motion, kVelocities, false)}};
-  if (motion.angle_rad.empty()) return tables;
   tables.push_back({.angle_rad = angle_axis(motion, kAngles)});
   tables.push_back({.angle_rad = angle_axis(motion, kFewAngles),
                     .velocity_rad_per_s = velocity_axis(motion, kFewVelocities, false)});
   return tables;
 }
 
-/// Mean square of the disturbance that an arm leaves.
-double left_to_disturbance(const Problem& balance, const arm::Arm& arm,
+/// Returns the mean square of the torque that an arm lacks.
+double mean_square_missing(const Problem& balance, const arm::Arm& arm,
                            const std::vector<bool>& runs) {
-  const double estimated_N_m =
-      estimated_disturbance_N_m(balance.predictor(), arm, runs, *balance.predictor().noise());
-  return estimated_N_m * estimated_N_m;
+  const std::vector<double> missing_N_m = balanced_motion(balance, arm, runs).missing_N_m;
+  return Eigen::VectorXd::Map(missing_N_m.data(), std::ssize(missing_N_m)).squaredNorm() /
+         static_cast<double>(missing_N_m.size());
 }
 
 }  // namespace
@@ -181,7 +182,7 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
   const arm::Arm arm = candidate.extend(balance.experiment().arm);
   if (arm.effects.contains(std::string(arm::kHubTorqueTable))) return std::nullopt;
   const auto& runs = balance.judged_runs();
-  const double before = left_to_disturbance(balance, arm, runs);
+  const double before = mean_square_missing(balance, arm, runs);
   std::optional<EmpiricalLaw> best;
   double least = (1.0 - kLeastShare) * before;
   const std::vector<arm::HubTorqueTable> tables =
@@ -190,7 +191,7 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
     const bool is_over_both = !axes.angle_rad.empty() && !axes.velocity_rad_per_s.empty();
     try {
       const FittedTable found = fitted(balance, arm, axes, kPart * std::sqrt(before));
-      const double left = left_to_disturbance(balance, with_table(arm, found.table), runs);
+      const double left = mean_square_missing(balance, with_table(arm, found.table), runs);
       if (!(left < (is_over_both && best ? kMuchLess * least : least))) continue;
       least = left;
       best = EmpiricalLaw{.table = found.table,

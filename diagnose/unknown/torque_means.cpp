@@ -19,7 +19,7 @@ std::vector<Samples> samples_of_curves(const arm::HubTorqueTable& table,
                                        const BalancedMotion& motion) {
   const bool is_over_both = !table.angle_rad.empty() && !table.velocity_rad_per_s.empty();
   std::vector<Samples> curves(is_over_both ? table.velocity_rad_per_s.size() : 1);
-  for (std::size_t k = 0; k < motion.disturbance_N_m.size(); ++k) {
+  for (std::size_t k = 0; k < motion.missing_N_m.size(); ++k) {
     if (!table.angle_rad.empty() && std::isnan(motion.angle_rad[k])) continue;
     std::size_t curve = 0;
     if (is_over_both) {
@@ -39,7 +39,7 @@ std::vector<std::vector<TorqueMean>> torque_means(const arm::HubTorqueTable& tab
                                                   const BalancedMotion& motion) {
   const auto& axis = table.angle_rad.empty() ? motion.velocity_rad_per_s : motion.angle_rad;
   std::vector<std::vector<TorqueMean>> made;
-  Eigen::VectorXd left = Eigen::VectorXd::Zero(std::ssize(motion.disturbance_N_m));
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(std::ssize(motion.missing_N_m));
   for (Samples& samples : samples_of_curves(table, motion)) {
     std::ranges::stable_sort(samples, {}, [&](std::size_t k) { return axis[k]; });
     auto& means = made.emplace_back();
@@ -51,11 +51,11 @@ std::vector<std::vector<TorqueMean>> torque_means(const arm::HubTorqueTable& tab
       TorqueMean mean;
       for (std::size_t k = first; k < end; ++k) {
         mean.at += axis[samples[k]] / n;
-        mean.torque_N_m += motion.disturbance_N_m[samples[k]] / n;
+        mean.torque_N_m += motion.missing_N_m[samples[k]] / n;
       }
       double squares = 0.0;
       for (std::size_t k = first; k < end; ++k) {
-        const double rest = motion.disturbance_N_m[samples[k]] - mean.torque_N_m;
+        const double rest = motion.missing_N_m[samples[k]] - mean.torque_N_m;
         left(static_cast<Eigen::Index>(samples[k])) = rest;
         squares += rest * rest;
       }

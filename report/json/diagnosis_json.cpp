@@ -138,6 +138,7 @@ Json missing_force_json(const std::optional<diagnose::MissingForce>& force) {
 Json prediction_json(const diagnose::Diagnosis& diagnosis) {
   Json json = {{"predictor", to_string(diagnosis.predictor)},
                {"reason", diagnosis.predictor_reason},
+               {"torque", diagnosis.torque ? gain_json(*diagnosis.torque) : Json(nullptr)},
                {"disturbance", nullptr},
                {"errors", Json::array()}};
   if (const auto& disturbance = diagnosis.disturbance) {

@@ -12,6 +12,7 @@
 #include "report/page/response_blocks.hpp"
 #include "report/tables/diagnosis_tables.hpp"
 #include "report/tables/empirical_law_table.hpp"
+#include "report/tables/evidence_tables.hpp"
 #include "report/tables/missing_force_table.hpp"
 #include "report/tables/plan_tables.hpp"
 #include "report/tables/prediction_error_table.hpp"
@@ -148,6 +149,7 @@ Section causes_section(const Diagnosis& diagnosis, const std::string& rest_of_ve
   Table parameters = cause_table(diagnosis);
   parameters.caption = "Estimated parameters";
   add_table(section, parameters, "cause-table");
+  add_table(section, loss_table(diagnosis), "losses");
   section.add(evidence_table(diagnosis));
   add_table(section, near_miss_table(diagnosis), "candidates");
   return section;

@@ -238,6 +238,11 @@ std::string predictor_text(const diagnose::Diagnosis& diagnosis) {
     return named +
            " The measured motion of the hub drives the simulation; torque and hub are not judged.";
   }
+  if (diagnosis.torque) {
+    return named +
+           " The measured motion of the hub says which torque it takes, and the recorded torque is "
+           "compared with that. NRMSE below is that of a simulation.";
+  }
   if (!diagnosis.disturbance) return named;
   const diagnose::DisturbanceGain& left = *diagnosis.disturbance;
   const std::string on_modes =

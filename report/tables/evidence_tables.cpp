@@ -41,9 +41,11 @@ std::string causes_text(const diagnose::Diagnosis& diagnosis) {
 }
 
 std::string error_text(const diagnose::Diagnosis& diagnosis) {
-  const diagnose::Gain& gain = diagnosis.validation.value_or(diagnosis.estimation);
-  return fmt::format("{} NRMSE {} from {:.3g} to {:.3g} %; the noise floor is {:.3g} %.",
+  const diagnose::Gain& gain =
+      diagnosis.torque ? *diagnosis.torque : diagnosis.validation.value_or(diagnosis.estimation);
+  return fmt::format("{} NRMSE{} {} from {:.3g} to {:.3g} %; the noise floor is {:.3g} %.",
                      diagnosis.validation ? "Held-out" : "Fitted",
+                     diagnosis.torque ? " of the hub torque" : "",
                      gain.after <= gain.before ? "falls" : "rises", 100.0 * gain.before,
                      100.0 * gain.after, 100.0 * gain.noise_floor);
 }
@@ -51,6 +53,7 @@ std::string error_text(const diagnose::Diagnosis& diagnosis) {
 /// Returns where the largest excess residual is: "The residuals are not noise: largest from 2 to 9
 /// Hz at hub_angle (run low)".
 std::string left_text(const diagnose::Diagnosis& diagnosis) {
+  if (diagnosis.torque) return "The residuals are not noise.";
   const auto& bands = diagnosis.symptoms.bands;
   const auto beyond = [](const diagnose::BandError& band) {
     return band.after * band.after - band.noise * band.noise;

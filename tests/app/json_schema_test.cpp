@@ -286,6 +286,7 @@ TEST_F(JsonSchema, WhatDiagnoseWritesIsWhatTheDocumentSays) {
     write("described/arm.toml", arm);
     diagnose("described/measurement.toml", "payload_mass", {"--predictor", "torque_balance"});
   }
+  diagnose("described/measurement.toml", "payload_mass", {"--predictor", "grey_box"});
   // A missing force whose port is determined.
   write("true.toml", arm + "[effects.coulomb_friction]\ntorque = 0.01\n");
   succeed({"simulate", "true.toml", "--duration", "4", "--period", "0.002", "--sensor",

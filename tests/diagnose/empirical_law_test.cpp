@@ -14,7 +14,8 @@ namespace {
 
 Diagnosis diagnosed(const Axis& axis) {
   const Experiment experiment = axis_experiment_with_controller(axis);
-  return diagnose(experiment, named(experiment, {"torque_gain", "time_delay"}));
+  // A gain of the torque would imitate a part of a law.
+  return diagnose(experiment, named(experiment, {"time_delay"}));
 }
 
 bool is_in(const arm::Arm& arm) {

@@ -27,8 +27,8 @@ inline constexpr double kPlaceDeviation = 0.3;
 
 /// Returns the price of a set of effects, the sum of -2 ln p over them, p the probability that an
 /// arm has one before any data. Effects of a family are forms of one cause: that it has a second
-/// one is `possible` (effects::Likely), and so is each further one. Delays, lags and what is wrong
-/// with single sensors are causes of their own.
+/// one is `possible` (effects::Likely), and so is each further one. Delays, lags and effects
+/// on single sensors are causes of their own.
 double price(const std::vector<Hypothesis>& effects);
 
 /// Returns the price of a fitted candidate beside its -2 ln L,

@@ -1,6 +1,7 @@
-"""The four recordings of scripts/case-recordings: what is known of each rig, how its log is
+"""The recordings of scripts/case-recordings: what is known of each rig, how its log is
 imported and diagnosed, and the figures that are asked for. In a command DATA/ is the folder of the
 logs."""
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -105,8 +106,6 @@ def no_other_cause(cases, effects):
 # EMPS: kv kp and kv of the data set's controller in N/m and N s/m, by the drive's 35.1507 N/V.
 EMPS_KP = 243.45 * 160.18 * 35.1507
 EMPS_KD = 243.45 * 35.1507
-EMPS_FRICTION = ["coulomb_friction", "hub_viscous_friction", "torque_bias", "friction_asymmetry",
-                 "torque_gain", "torque_dead_zone", "stribeck_friction"]
 EMPS_OFFSET = "published inverse least squares, -3.16 N beside the friction"
 EMPS_IMPORT = ["--column", "torque=force:N:1", "--column", "hub_angle=position:m:1",
                "--reference", "reference", "--controller",
@@ -119,13 +118,12 @@ EMPS = Recording(
     logs=["emps/estimation.csv"],
     files={"emps.toml": 'name = "EMPS"\n\n[hub]\ninertia = 95.1   # kg\n'},
     cases=[Case(
-        "emps", "friction and force",
+        "emps", "whole library",
         [["import", "DATA/emps/estimation.csv", *EMPS_IMPORT, "--out", "emps"]],
-        ["--effects", ",".join(EMPS_FRICTION), "--time-limit", "150"], ("second",)),
+        [], ("second",)),
         Case("constant", "the same, without friction_asymmetry",
              [["import", "DATA/emps/estimation.csv", *EMPS_IMPORT, "--out", "constant"]],
-             ["--effects", ",".join(EMPS_FRICTION), "--exclude", "friction_asymmetry",
-              "--time-limit", "120"], ("second",))],
+             ["--exclude", "friction_asymmetry"], ("second",))],
     known=[
         Known("Coulomb friction [N]", (20.4, 20.4), "published inverse least squares",
               plain("emps", "coulomb_friction", "torque", "N"), 0.05),
@@ -171,9 +169,6 @@ D = [[{10 * ROTARY_GAIN:.6g}, {-10 * ROTARY_GAIN:.6g}, {-ROTARY_GAIN:.6g}, {ROTA
 ROTARY_RUNS = ["--time-unit", "ms", "--run", "up=344.9:349.8", "--run", "down=349.9:",
                "--validation", "down", "--torque", f"{ROTARY_GAIN}*[Output Voltage]",
                "--arm", "rotary.toml"]
-ROTARY_EFFECTS = ["back_emf", "hub_viscous_friction", "coulomb_friction", "stribeck_friction",
-                  "torque_gain", "torque_bias", "torque_dead_zone", "flexural_rigidity",
-                  "hub_inertia", "payload_mass", "sensor_delay", "sensor_gain", "time_delay"]
 ROTARY = Recording(
     name="rotary-arm",
     logs=["rotary-arm/log.csv"],
@@ -182,14 +177,13 @@ ROTARY = Recording(
         Case("loop", "closed loop",
              [["import", "DATA/rotary-arm/log.csv", *ROTARY_RUNS, "--reference",
                "Position Reference", "--controller", "law.toml", "--out", "loop"]],
-             ["--effects", ",".join(ROTARY_EFFECTS), "--time-limit", "150"], ("down",)),
+             ["--time-limit", "120"], ("down",)),
         Case("open", "open loop, 100 Hz",
              [["import", "DATA/rotary-arm/log.csv", *ROTARY_RUNS, "--decimate", "10", "--out",
                "open"]],
-             ["--effects", ",".join(ROTARY_EFFECTS), "--time-limit", "90"], ("down",)),
-        Case("balance", "open loop, hub torque alone", [],
-             ["--effects", "hub_viscous_friction,coulomb_friction,hub_inertia,torque_gain",
-              "--predictor", "torque_balance"], ("down",), "open"),
+             ["--time-limit", "90"], ("down",)),
+        Case("balance", "open loop, torque balance", [], ["--predictor", "torque_balance"],
+             ("down",), "open"),
     ],
     known=[
         Known("viscous friction, back-EMF included [N m s/rad]", (0.095, 0.095),
@@ -320,8 +314,6 @@ inertia = 0.10392
 RIG_MOVES = ["--run", "up=2.3:5.3", "--run", "down=7.3:10.3", "--run", "up-again=12.3:15.3",
              "--run", "down-again=17.3:", "--validation", "up-again", "--validation",
              "down-again"]
-RIG_FRICTION = ["coulomb_friction", "torque_bias", "friction_asymmetry", "torque_gain",
-                "torque_dead_zone"]
 RIG_TORQUE = ["--column", "torque=i1_meas_A:A:8.925", "--column", "hub_angle=hub1_deg"]
 # Strain at the root of a beam with a force at its tip: 3 t/(2 L) per rad of tip deflection.
 RIG_GAUGE = ["--column", "strain@0=tipdefl1_deg:deg:1.5*0.00127/0.202*pi/180"]
@@ -333,8 +325,6 @@ LINK_ARM = (RIG_ARM.replace("viscous_friction_uncertainty = 0.3\n", "")
             .replace("inertia = 0.10392", "inertia = 0.10392\ninertia_uncertainty = 0.3")
             + "\n[damping]\nkelvin_voigt = 0.02\nkelvin_voigt_uncertainty = 0.5\n")
 RIG_AGAIN = ("up-again", "down-again")
-RIG_LINK = ["root_compliance", "root_damping", "payload_offset", "payload_inertia", "sensor_gain",
-            "sensor_offset", "sensor_delay", "sensor_lag", "gauge_position", "flexural_rigidity"]
 RIG = Recording(
     name="flexible-link-rig",
     logs=["flexible-link-rig/run-20s.csv"],
@@ -343,13 +333,11 @@ RIG = Recording(
         Case("hub", "torque to hub angle, 100 Hz",
              [["import", "DATA/flexible-link-rig/run-20s.csv", *RIG_TORQUE, *RIG_MOVES,
                "--decimate", "5", "--arm", "rig.toml", "--out", "hub"]],
-             ["--effects", ",".join(RIG_FRICTION), "--time-limit", "150"], RIG_AGAIN),
+             ["--time-limit", "120"], RIG_AGAIN),
         Case("motion", "the measured angle drives the link",
              [["import", "DATA/flexible-link-rig/run-20s.csv", *RIG_TORQUE, *RIG_GAUGE,
                *RIG_MOVES, "--arm", "link.toml", "--out", "motion"]],
-             ["--effects", ",".join(RIG_LINK), "--predictor", "driven_by_motion",
-              "--time-limit", "100"],
-             RIG_AGAIN),
+             ["--predictor", "driven_by_motion", "--time-limit", "100"], RIG_AGAIN),
     ],
     known=[
         Known("hub viscous friction [N m s/rad]", (4.0, 4.0),
@@ -367,4 +355,111 @@ RIG = Recording(
              validation_error("motion", RIG_AGAIN, "strain@0", 0.15)),
     ])
 
-RECORDINGS = [EMPS, ROTARY, RULER, RIG]
+# torque-steps: the torque changes after 10 s, to the value in the name of the file.
+STEPS_LOGS = [f"idf_{step}.mat" for step in ("neg_0.045_1", "pos_0.065_1", "neg_0.04_2",
+                                             "pos_0.06_2")]
+STEPS_AGAIN = ("idf_neg_0.04_2", "idf_pos_0.06_2")
+STEPS = Recording(
+    name="torque-steps",
+    logs=[f"torque-steps/{log}" for log in STEPS_LOGS],
+    files={"motor.toml": 'name = "motor rig"\n\n[hub]\ninertia = 1.2e-4\n'
+                         'viscous_friction = 7.03e-5\n'},
+    cases=[Case(
+        "steps", "whole library",
+        [["import", *[f"DATA/torque-steps/{log}" for log in STEPS_LOGS],
+          "--column", "time=data(:,1):s", "--column", "hub_angle=data(:,3):rad",
+          "--column", "hub_velocity=data(:,4):rad/s", "--column", "torque=data(:,5):N m",
+          "--initial", "free", "--validation", STEPS_AGAIN[0], "--validation", STEPS_AGAIN[1],
+          "--arm", "motor.toml", "--out", "steps"]],
+        ["--time-limit", "60"], STEPS_AGAIN)],
+    known=[
+        Known("Coulomb friction [N m]", (0.017, 0.024), "fits of these logs (README of the logs)",
+              plain("steps", "coulomb_friction", "torque", "N m"), 0.05),
+        Known("torque bias [N m]", (-0.011, -0.007), "fits of these logs (README of the logs)",
+              plain("steps", "torque_bias", "torque", "N m"), 0.05),
+    ],
+    goals=[
+        Goal("viscous friction named",
+             names_one_of(["steps"], ["hub_viscous_friction", "back_emf"])),
+        Goal("hub velocity of the validation runs below 20 %",
+             validation_error("steps", STEPS_AGAIN, "hub_velocity", 0.2)),
+    ])
+
+# two-axis-robot: strokes of constant velocity, one behind the other; the first row of a stroke
+# repeats the time of the last one before.
+ROBOT_STROKES = [1, 652, 1303, 2204, 3105, 4306, 5507, 6908, 8309, 9690, 11071, 12772, 14473, 15874,
+                 17275, 18676, 20077, 21258, 22439, 24290, 26141, 27492, 28843, 29844, 30845, 31496,
+                 32147, 32678, 33209]
+ROBOT_RUNS = {f"stroke-{k + 1}": f"rows:{first + 1}:{end - 1}" for k, (first, end) in
+              enumerate(zip(ROBOT_STROKES, ROBOT_STROKES[1:]))}
+# Every other pair, up and down.
+ROBOT_AGAIN = tuple(f"stroke-{k + 1}" for k in range(len(ROBOT_RUNS)) if k % 4 > 1)
+
+
+def torque_error(case, most):
+    """Whether the torque balance leaves at most this part of the torque of the validation runs."""
+    def judge(outcomes):
+        gain = outcomes[case].result["prediction"]["torque"]
+        if gain is None:
+            return "another predictor", False
+        return f"{number(100 * gain['after'], 3)} %", gain["after"] <= most
+    return judge
+
+
+ROBOT = Recording(
+    name="two-axis-robot",
+    logs=["two-axis-robot/constant-velocity-axis-1.mat"],
+    files={"axis.toml": 'name = "axis 1 of a robot"\n\n[hub]\ninertia = 0.026\n'},
+    cases=[Case(
+        "strokes", "whole library",
+        [["import", "DATA/two-axis-robot/constant-velocity-axis-1.mat", "--column", "time=t:s",
+          "--column", "hub_angle=q1:rad", "--column", "hub_velocity=qpfil1:rad/s",
+          "--torque", "20.25*0.0525*[ifil1]", "--initial", "free",
+          *[part for run, rows in ROBOT_RUNS.items() for part in ("--run", f"{run}={rows}")],
+          *[part for run in ROBOT_AGAIN for part in ("--validation", run)],
+          "--arm", "axis.toml", "--out", "strokes"]],
+        ["--time-limit", "90"], ROBOT_AGAIN)],
+    known=[
+        Known("gravity [N m]", (0.83, 0.9), "fits of this log (README of the log)",
+              plain("strokes", "tilt", "amplitude", "N m"), 0.05),
+        Known("Coulomb friction [N m]", (0.11, 0.17), "fits of this log (README of the log)",
+              plain("strokes", "coulomb_friction", "torque", "N m"), 0.05),
+    ],
+    goals=[Goal("torque of the validation runs below 15 %, by torque balance",
+                torque_error("strokes", 0.15))])
+
+# geared-servo: kt/R/885 times duty and voltage; duty = kp 4096/(2 pi)/(256 885) (goal - angle).
+SERVO_TORQUE = 0.387 / 4.02 / 885
+SERVO_KP = 0.387 / 4.02 * 7.3 * 400 * 4096 / (2 * math.pi) / (256 * 885)
+SERVO_LOGS = ["sin-sin-kp400", "up-and-down-kp400", "sin-time-square-kp400"]
+SERVO = Recording(
+    name="geared-servo",
+    logs=[f"geared-servo/{log}.csv" for log in SERVO_LOGS],
+    files={"servo.toml": """name = "geared servo with a pendulum"
+
+[hub]
+inertia = 0.00671
+viscous_friction = 0.0409   # back-EMF included
+
+[effects.tilt]   # the pendulum
+amplitude = 0.4805
+angle = 0.0
+"""},
+    cases=[Case(
+        "servo", "closed loop, whole library",
+        [["import", *[f"DATA/geared-servo/{log}.csv" for log in SERVO_LOGS],
+          "--column", "time=time:s", "--column", "hub_angle=position:rad",
+          "--column", "hub_velocity=speed:rad/s",
+          "--torque", f"{SERVO_TORQUE:.6g}*[load]*[input_volts]", "--reference", "goal:rad",
+          "--controller", f"kp={SERVO_KP:.6g}", "--initial", "free",
+          "--validation", SERVO_LOGS[2], "--arm", "servo.toml", "--out", "servo"]],
+        ["--time-limit", "90"], (SERVO_LOGS[2],))],
+    known=[
+        Known("friction over the torque of the load [1]", (0.2, 0.35),
+              "fits of these logs (README of the logs)",
+              plain("servo", "load_friction", "factor", "1"), 0.05),
+    ],
+    goals=[Goal("hub angle of the validation run below 13 %",
+                validation_error("servo", (SERVO_LOGS[2],), "hub_angle", 0.13))])
+
+RECORDINGS = [EMPS, ROTARY, RULER, RIG, STEPS, ROBOT, SERVO]

@@ -153,7 +153,7 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   const Eigen::VectorXd weights = weighing_deviations(observations_);
   const double logged_late_s = std::max(0.0, -response::take_apart(arm).actuator.delay_s);
   const auto simulated = [&](std::size_t r, const response::ArmSimulator& simulation) {
-    const auto [first, count] = stretch(r);
+    const auto [first, count] = simulated_stretch(r);
     const Eigen::VectorXd measured = observations_.values.segment(first, count);
     const Eigen::VectorXd deviations = weights.segment(first, count);
     const auto& run = experiment_->runs[r];
@@ -167,7 +167,7 @@ Eigen::VectorXd Predictor::operator()(const arm::Arm& arm, const std::vector<boo
   };
   for_each_time_run(
       arm, runs, nullptr, [&](std::size_t r, const response::ArmSimulator& simulation) {
-        const auto [first, count] = stretch(r);
+        const auto [first, count] = simulated_stretch(r);
         values.segment(first, count) =
             *(*shown_)[r].of(arm, [&](const arm::Arm&) { return simulated(r, simulation); });
       });
@@ -281,9 +281,9 @@ void Predictor::predict_torques(const arm::Arm& arm, const std::vector<bool>& ru
   }
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r]) continue;
-    const auto [first, count] = stretch(r);
+    const auto [first, count] = simulated_stretch(r);
+    const Index at = first + count;
     const auto samples = std::ssize(balances[r].missing_N_m);
-    const Index at = first + count - samples;
     values.segment(at, samples) = observations_.values.segment(at, samples) +
                                   std::sqrt(recorded / transmitted) * map(balances[r].missing_N_m);
   }
@@ -292,6 +292,14 @@ void Predictor::predict_torques(const arm::Arm& arm, const std::vector<bool>& ru
 std::pair<Index, Index> Predictor::stretch(std::size_t run) const {
   const auto& first = observations_.first_of_run;
   return {first[run], first[run + 1] - first[run]};
+}
+
+std::pair<Index, Index> Predictor::simulated_stretch(std::size_t run) const {
+  auto [first, count] = stretch(run);
+  if (experiment_->judges_torque) {
+    count -= std::ssize(std::get<measured::TimeRecord>(experiment_->runs[run].data).torque_N_m);
+  }
+  return {first, count};
 }
 
 // Moves are not what the likelihood of a smoothing assumes: those of simulated arms were off by up

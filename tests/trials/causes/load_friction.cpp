@@ -10,8 +10,8 @@ Cause load_friction() {
   return {.name = "load_friction",
           .shown_in = ShownIn::time,
           .acts_on = ActsOn::hub,
-          // With all of the torque it would hold the hub.
-          .largest = 0.8,
+          // With all of the torque it holds the hub.
+          .largest = 0.6,
           .parameters = [](const NaturalSizes& natural, double size,
                            const Chance& chance) -> Parameters {
             const double speed =

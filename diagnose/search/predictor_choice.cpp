@@ -153,7 +153,6 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made,
     auto at_hub =
         balanced ? std::move(balanced) : select_at_hub(task, made, part_of(progress, 0.7, 1.0));
     if (!at_hub) return std::move(made);
-    at_hub->simulated = made.simulated;
     Selection& other = at_hub->selection;
     if (other.end && at_hub->names_nothing()) {
       made.reason = kNoTime;

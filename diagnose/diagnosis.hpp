@@ -71,8 +71,8 @@ struct Diagnosis {
   PredictorKind predictor = PredictorKind::output_error;  ///< that the causes were named by
   std::string predictor_reason;                           ///< a sentence; empty without `time` runs
   std::optional<DisturbanceGain> disturbance;             ///< by grey_box
-  /// By torque_balance: the torque that the measured motion takes, against the recorded one. Of the
-  /// validation runs, or of the estimation runs where there are none.
+  /// Errors of the torque that the measured motion takes, against the recorded one, on the
+  /// validation runs, or the estimation runs without any; given with torque_balance alone.
   std::optional<Gain> torque = {};
   Gain estimation;  ///< by output error, as the residuals and tests below
   std::optional<Gain> validation;

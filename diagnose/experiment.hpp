@@ -31,8 +31,8 @@ struct Experiment {
   /// Of an experiment that is driven by motion (driven_by_motion), one a run, all of which are
   /// `time` runs: the hub turns like that, whatever the torque. Else empty.
   std::vector<MeasuredMotion> motions = {};
-  /// Of an experiment that is driven by motion: the torque that the motion takes is judged by the
-  /// recorded one, in a channel behind those of the sensors (balanced_at_hub).
+  /// Whether the torque that the motions take is judged by the recorded one, in a channel behind
+  /// those of the sensors (balanced_at_hub).
   bool judges_torque = false;
 };
 

@@ -114,7 +114,7 @@ class Predictor {
   std::optional<Eigen::Index> hub_sensor(std::size_t run) const;
   /// Where a run begins in Observations, and how many numbers it has.
   std::pair<Eigen::Index, Eigen::Index> stretch(std::size_t run) const;
-  /// The same without a torque that is judged by the motion.
+  /// Returns `stretch` without a torque that is judged by the motion.
   std::pair<Eigen::Index, Eigen::Index> simulated_stretch(std::size_t run) const;
 
   const Experiment* experiment_;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <span>
 
 namespace flexarm::diagnose {
 
@@ -63,6 +62,10 @@ class SmoothLaws {
     for (std::size_t i = 0; i < laws_.smooth.size(); ++i) {
       const arm::SmoothHubTorque& law = laws_.smooth[i].part;
       std::vector<double>& z = states_[i];
+      if (z.empty()) {
+        sum_N_m += law.law(middle, {}, {}).torque_N_m;
+        continue;
+      }
       std::vector<double> rates(z.size());
       std::vector<double> half = z;
       law.law(middle, z, rates);
@@ -79,7 +82,6 @@ class SmoothLaws {
   static void move(const arm::SmoothHubTorque& law, const std::vector<double>& z,
                    const std::vector<double>& rates, double turn_rad, double time_s,
                    std::vector<double>& after) {
-    if (z.empty()) return;
     if (law.after_turn) {
       law.after_turn(turn_rad, z, after);
     } else {
@@ -102,11 +104,10 @@ BalancedRun balance(const arm::ModalModel& model, const response::ArmParts& part
   const response::DrivenMotion taken = response::torque_for_motion(
       model, parts, hub.angle_rad, hub.velocity_rad_per_s, hub.acceleration_rad_per_s2, period_s);
   const std::vector<double> needed_N_m = interval_means(taken.torque_N_m);
-  BalancedRun made{
-      .angle_rad = interval_means(taken.angle_rad),
-      .velocity_rad_per_s = interval_means(taken.velocity_rad_per_s),
-      .transmitted_N_m = response::transmitted_torque_N_m(
-          parts.actuator, record.torque_N_m, period_s, hold == response::TorqueHold::first)};
+  BalancedRun made{.angle_rad = interval_means(taken.angle_rad),
+                   .velocity_rad_per_s = interval_means(taken.velocity_rad_per_s),
+                   .transmitted_N_m = response::transmitted_torque_N_m(
+                       parts.actuator, record.torque_N_m, period_s, hold)};
   const double slow_rad_per_s = kRests * velocity_error_rad_per_s(motion.error, period_s);
   const std::size_t samples = needed_N_m.size();
   SmoothLaws laws(parts.hub, period_s);

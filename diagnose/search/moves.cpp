@@ -113,12 +113,10 @@ class Ground {
     const VectorXd predicted = unweighted(left_ + size * refitted);
     const double parameters = static_cast<double>(effect.parameters.size());
     const double determined = parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
-    std::vector<Hypothesis> with_effect = set_.effects;
-    with_effect.push_back(effect);
-    const double more = price(with_effect) - price(set_.effects);
     return {.move = {.added = &effect,
                      .values = values_at(effect, places, size),
-                     .score = likelihood_.cost(predicted) + price_ + more + determined},
+                     .score = likelihood_.cost(predicted) + price_ + price(effect, set_.effects) +
+                              determined},
             .size = size,
             .change = &change};
   }

@@ -1,9 +1,7 @@
 #include "diagnose/search/predicted_selection.hpp"
 
 #include "arm/input_error.hpp"
-#include "arm/linear_arm.hpp"
 #include "arm/sensor.hpp"
-#include "arm/uncertainties.hpp"
 #include "diagnose/motion_drive.hpp"
 #include "diagnose/predictors/noise_estimate.hpp"
 #include "diagnose/predictors/response_runs.hpp"
@@ -13,12 +11,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 
 namespace flexarm::diagnose {
 
@@ -34,13 +30,17 @@ bool is_on_hub_sensor(const Hypothesis& hypothesis) {
   return !hypothesis.sensor.empty() && arm::is_collocated(arm::parse_sensor(hypothesis.sensor));
 }
 
-/// What a filter is given: the recorded torque, and whole runs decimated to what is enough for a
-/// torque on the hub.
+/// Returns the runs with the recorded torque, whole and decimated to what is enough for a torque on
+/// the hub.
+Experiment decimated_runs(const Experiment& experiment, const SelectionOptions& options) {
+  return decimated_whole(without_controllers(experiment), options.filtered_samples);
+}
+
+/// Returns the problem that a filter is given.
 Problem filtered_problem(const Experiment& experiment, int flexible_modes,
                          const SelectionOptions& options) {
-  const auto decimated = std::make_shared<const Experiment>(
-      decimated_whole(without_controllers(experiment), options.filtered_samples));
-  return {decimated, {.flexible_modes = flexible_modes, .deadline = options.deadline}};
+  return {std::make_shared<const Experiment>(decimated_runs(experiment, options)),
+          {.flexible_modes = flexible_modes, .deadline = options.deadline}};
 }
 
 }  // namespace
@@ -86,13 +86,11 @@ PredictedSelection select_by_motion(const SelectionTask& task, const Experiment&
   return select_by_simulation({searched, task.options}, driven, progress);
 }
 
-PredictedSelection select_by_balance(const SelectionTask& task,
-                                     const PredictedSelection& by_simulation,
+PredictedSelection select_by_balance(const SelectionTask& task, const Problem& simulated,
                                      const DiagnosisProgress& progress) {
-  const Experiment decimated = decimated_whole(
-      without_controllers(by_simulation.simulated.experiment()), task.options.filtered_samples);
-  const Problem balance(std::make_shared<const Experiment>(balanced_at_hub(decimated)),
-                        {.flexible_modes = by_simulation.simulated.predictor().flexible_modes(),
+  const Problem balance(std::make_shared<const Experiment>(
+                            balanced_at_hub(decimated_runs(simulated.experiment(), task.options))),
+                        {.flexible_modes = simulated.predictor().flexible_modes(),
                          .deadline = task.options.deadline});
   std::vector<Hypothesis> searched = task.hypotheses;
   std::erase_if(searched, is_on_hub_sensor);
@@ -102,7 +100,7 @@ PredictedSelection select_by_balance(const SelectionTask& task,
           .predictor = PredictorKind::torque_balance,
           .reason = "as asked for",
           .balance = balanced,
-          .simulated = by_simulation.simulated};
+          .simulated = simulated};
 }
 
 std::optional<PredictedSelection> select_by_filter(const SelectionTask& task,

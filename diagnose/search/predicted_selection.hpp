@@ -67,10 +67,10 @@ PredictedSelection select_by_simulation(const SelectionTask& task, const Problem
 PredictedSelection select_by_motion(const SelectionTask& task, const Experiment& experiment,
                                     const DiagnosisProgress& progress);
 
-/// The selection by the balance of the hub's torque (balanced_at_hub), of runs that are decimated
-/// to options.filtered_samples. Throws InputError where no run shows the hub, and Cancelled.
-PredictedSelection select_by_balance(const SelectionTask& task,
-                                     const PredictedSelection& by_simulation,
+/// Returns the selection by the balance of the hub's torque (balanced_at_hub), of the runs of a
+/// simulated problem, decimated to options.filtered_samples. Throws InputError where a run does not
+/// show the hub, and Cancelled.
+PredictedSelection select_by_balance(const SelectionTask& task, const Problem& simulated,
                                      const DiagnosisProgress& progress);
 
 /// The selection by a stochastic grey box. Empty where that is not asked for and the disturbance of

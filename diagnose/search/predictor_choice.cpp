@@ -93,6 +93,11 @@ double own_error(const PredictedSelection& made) {
   return judged.disturbance ? judged.disturbance->estimated_relative() : made.simulated_error();
 }
 
+/// Returns what a selection begins with that nothing was searched for before.
+PredictedSelection unsearched(const Problem& problem) {
+  return {.selection = Selection{problem}, .reason = "", .simulated = problem};
+}
+
 /// Returns whether every run shows the motion of the hub.
 bool shows_hub(const Experiment& experiment) {
   return std::ranges::all_of(experiment.runs, [](const auto& run) {
@@ -112,9 +117,7 @@ std::optional<PredictedSelection> balance_before_simulation(const SelectionTask&
   SelectionOptions options = task.options;
   options.deadline = halfway(options.deadline);
   try {
-    return select_by_balance({task.hypotheses, options},
-                             {.selection = Selection{problem}, .reason = "", .simulated = problem},
-                             progress);
+    return select_by_balance({task.hypotheses, options}, problem, progress);
   } catch (const arm::InputError&) {
     return std::nullopt;  // a hub sensor that is late by the arm file
   } catch (const Cancelled&) {
@@ -129,7 +132,7 @@ std::optional<PredictedSelection> select_at_hub(const SelectionTask& task,
                                                 const PredictedSelection& made,
                                                 const DiagnosisProgress& progress) {
   if (!shows_hub(made.simulated.experiment())) return select_by_filter(task, made, progress);
-  return select_by_balance(task, made, progress);
+  return select_by_balance(task, made.simulated, progress);
 }
 
 /// Selects by responses or at the hub (`balanced`, where that was done) where `made` by simulation
@@ -165,12 +168,11 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made,
     }
     const double error_at_hub = own_error(*at_hub);
     const double error_of_simulation = own_error(made);
-    const std::string errors = fmt::format(
-        "it leaves {:.3g} % of the torque, a simulation {:.3g} "
-        "% of the signals",
-        100.0 * error_at_hub, 100.0 * error_of_simulation);
-    const bool is_better = at_hub->simulated_error() < error_of_simulation;
-    if (other.cancelled || error_at_hub <= error_of_simulation || is_better) {
+    const std::string errors =
+        fmt::format("it leaves {:.3g} % of the torque, a simulation {:.3g} % of the signals",
+                    100.0 * error_at_hub, 100.0 * error_of_simulation);
+    if (other.cancelled || error_at_hub <= error_of_simulation ||
+        at_hub->simulated_error() < error_of_simulation) {
       if (!other.end) other.end = made.selection.end;
       if (at_hub->balance) at_hub->reason = errors;
       return *std::move(at_hub);
@@ -256,12 +258,10 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
 /// By the filter of options.predictor.
 PredictedSelection select_by_asked_filter(const SelectionTask& task, const Problem& problem,
                                           const DiagnosisProgress& progress) {
-  PredictedSelection unsearched{
-      .selection = Selection{problem}, .reason = "", .simulated = problem};
   try {
     return task.options.predictor == PredictorKind::torque_balance
-               ? select_by_balance(task, unsearched, progress)
-               : *select_by_filter(task, unsearched, progress);
+               ? select_by_balance(task, problem, progress)
+               : *select_by_filter(task, unsearched(problem), progress);
   } catch (const Cancelled&) {
     if (is_over(task.options.deadline)) {
       PredictedSelection made = select_by_simulation(task, problem, progress);
@@ -269,16 +269,16 @@ PredictedSelection select_by_asked_filter(const SelectionTask& task, const Probl
       made.selection.end = SearchEnd{kNoiseStage, {}};
       return made;
     }
-    unsearched.selection.cancelled = true;
-    return unsearched;
+    PredictedSelection made = unsearched(problem);
+    made.selection.cancelled = true;
+    return made;
   }
 }
 
 /// By responses. Throws InputError where no torque is rich enough.
 PredictedSelection select_by_asked_responses(const SelectionTask& task, const Problem& problem,
                                              const DiagnosisProgress& progress) {
-  auto made = select_by_responses(
-      task, {.selection = Selection{problem}, .reason = "", .simulated = problem}, progress);
+  auto made = select_by_responses(task, unsearched(problem), progress);
   if (!made) {
     throw arm::InputError(fmt::format(
         "predictor frequency_response: no torque is rich enough; a run needs {} lines of a "

@@ -14,13 +14,14 @@ namespace flexarm::diagnose {
 ///   simulated with the arm file; where effects are found that do not leave noise, again with noise
 ///   of the recorded torques beside these effects;
 /// - where it supports no effect, or what it finds leaves half of the signal: responses, where
-///   torques are rich (response_runs.hpp); then, where the most likely disturbance of the hub torque
-///   is options.least_disturbance or more, a torque balance at the hub, or a stochastic grey box
-///   where a `time` run does not show the hub's motion. For a torque balance, what acts on beam,
-///   payload and sensors is selected by the measured motion before, where runs have other sensors
-///   too. The result by balance is taken where simulations of validation runs (estimation runs
-///   without these) with what it found are nearer to the data; where it names nothing, with the law
-///   of hub torque that it shows (empirical_law.hpp), which PredictedSelection::law keeps.
+///   torques are rich (response_runs.hpp); then a torque balance at the hub, or, where a run does
+///   not show the hub's motion and the most likely disturbance of the hub torque is
+///   options.least_disturbance or more, a stochastic grey box. That is taken where it leaves less
+///   of the torque of validation runs (estimation runs without these) than a simulation leaves of
+///   their signals, or where its effects simulate them better; where it names nothing, with the law
+///   of hub torque that it shows (empirical_law.hpp), which PredictedSelection::law keeps;
+/// - where a simulation of the arm as filed runs away, the torque balance before it: the search by
+///   simulation begins with its effects.
 ///
 /// With options.predictor by that one; throws InputError where it cannot be formed, or no run has a
 /// controller for it.

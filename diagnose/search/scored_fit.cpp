@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <numeric>
 #include <optional>
-#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -165,23 +165,23 @@ VectorXd damped_step(const MatrixXd& normal, const VectorXd& gradient, const Vec
 
 }  // namespace
 
-double price(const std::vector<Hypothesis>& effects) {
-  const auto price_of = [](effects::Likely prior) {
-    return -2.0 * std::log(effects::probability_of(prior));
-  };
-  double sum = 0.0;
-  std::set<effects::Family> families;
-  for (const Hypothesis& effect : effects) {
-    const effects::Family family = effect.entry->family;
-    sum += price_of(effect.entry->prior);
-    if (family == effects::Family::timing || family == effects::Family::sensor) continue;
-    if (!families.insert(family).second) sum += price_of(effects::Likely::possible);
-  }
-  return sum;
+double price(const Hypothesis& effect, std::span<const Hypothesis> others) {
+  const effects::Family family = effect.entry->family;
+  const bool is_single = family == effects::Family::timing || family == effects::Family::sensor;
+  const bool is_other_form =
+      !is_single && std::ranges::any_of(others, [family](const Hypothesis& other) {
+        return other.entry->family == family;
+      });
+  const double probability =
+      effects::probability_of(effect.entry->prior) *
+      (is_other_form ? effects::probability_of(effects::Likely::possible) : 1.0);
+  return -2.0 * std::log(probability);
 }
 
 double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorXd& weights) {
-  const double sum = price(candidate.effects);
+  const std::span<const Hypothesis> effects = candidate.effects;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < effects.size(); ++i) sum += price(effects[i], effects.first(i));
   if (jacobian.cols() == 0) return sum;
   MatrixXd weighted = weights.cwiseSqrt().asDiagonal() * jacobian;
   weighted.rightCols(std::ssize(candidate.values)) *= kPlaceDeviation;

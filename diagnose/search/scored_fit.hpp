@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <span>
 
 namespace flexarm::diagnose {
 
@@ -25,15 +26,15 @@ struct ScoredFit {
 /// Standard deviation of the prior of a place in the range of a parameter.
 inline constexpr double kPlaceDeviation = 0.3;
 
-/// Returns the price of a set of effects, the sum of -2 ln p over them, p the probability that an
-/// arm has one before any data. Effects of a family are forms of one cause: that it has a second
-/// one is `possible` (effects::Likely), and so is each further one. Delays, lags and effects
-/// on single sensors are causes of their own.
-double price(const std::vector<Hypothesis>& effects);
+/// Returns the price of an effect beside others, -2 ln p, p the probability that an arm has it
+/// before any data (effects::Entry::prior). Effects of a family are forms of one cause: that a
+/// cause has another form is `possible` (effects::Likely). Delays, lags and effects on single
+/// sensors are causes of their own.
+double price(const Hypothesis& effect, std::span<const Hypothesis> others);
 
 /// Returns the price of a fitted candidate beside its -2 ln L,
 ///
-///     price of its effects  +  ln det(I + P J^T W J),
+///     sum over effects of -2 ln p  +  ln det(I + P J^T W J),
 ///
 /// P the prior variance of nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the
 /// lines: the Laplace approximation of the evidence. A parameter that the data determine to a

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -44,11 +45,15 @@ BalancedMotion balanced_motion(const Problem& balance, const arm::Arm& arm,
   return motion;
 }
 
+double BalancedMotion::mean_square_missing() const {
+  return Eigen::VectorXd::Map(missing_N_m.data(), std::ssize(missing_N_m)).squaredNorm() /
+         static_cast<double>(missing_N_m.size());
+}
+
 Dependence dependence_on(const std::vector<double>& values,
                          const std::vector<double>& missing_N_m) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::erase_if(order, [&](std::size_t k) { return std::isnan(values[k]); });
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return values[k]; });
   const std::size_t n = order.size();
   if (n < std::size_t{2} * kIntervals) return {};
@@ -74,14 +79,11 @@ Dependence dependence_on(const std::vector<double>& values,
 Symptom balance_symptom(const Problem& balance) {
   const std::vector<bool> all(balance.experiment().runs.size(), true);
   const BalancedMotion motion = balanced_motion(balance, balance.experiment().arm, all);
-  double squares = 0.0;
-  for (const double torque : motion.missing_N_m) squares += torque * torque;
-  const double rms_N_m = std::sqrt(squares / static_cast<double>(motion.missing_N_m.size()));
   const Dependence on_velocity = dependence_on(motion.velocity_rad_per_s, motion.missing_N_m);
   std::string text = fmt::format(
       "Residual hub torque by torque balance: {:.3g} N m rms with the arm file. Its mean at each "
       "hub velocity is {} of its mean square",
-      rms_N_m, percent(on_velocity.share));
+      std::sqrt(motion.mean_square_missing()), percent(on_velocity.share));
   const Dependence on_angle = dependence_on(motion.angle_rad, motion.missing_N_m);
   text += fmt::format(", at each hub angle {}", percent(on_angle.share));
   const double probability = std::min(on_velocity.probability, on_angle.probability);

@@ -7,11 +7,13 @@
 
 namespace flexarm::diagnose {
 
-/// What a torque balance makes of runs, run after run: means over a few samples each.
+/// The torque balance of runs, run after run: means over a few samples each.
 struct BalancedMotion {
   std::vector<double> missing_N_m;         ///< the residual hub torque
   std::vector<double> velocity_rad_per_s;  ///< of the hub, as smoothed
   std::vector<double> angle_rad;           ///< likewise
+
+  double mean_square_missing() const;  ///< [N^2 m^2]
 };
 
 /// Returns it of these runs of a problem that judges the torque (balanced_at_hub). Throws

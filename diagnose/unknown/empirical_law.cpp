@@ -28,7 +28,7 @@ constexpr int kFewVelocities = 2;
 constexpr int kFewAngles = 9;
 /// Gauss-Newton steps: the balance is linear in the torques but for friction that holds.
 constexpr int kSteps = 2;
-/// Of a difference quotient, over the missing torque.
+/// Step of a difference quotient, over the missing torque.
 constexpr double kPart = 0.1;
 /// A place that no sample is near has the torque of its neighbour by this weight, over that of a
 /// mean place; by the second, which is far less, that of a side which no sample is on is 0.
@@ -154,21 +154,11 @@ FittedTable fitted(const Problem& balance, const arm::Arm& arm, arm::HubTorqueTa
 
 /// Tables to be fitted, without torques; that over both axes is the last.
 std::vector<arm::HubTorqueTable> tables_for(const BalancedMotion& motion) {
-  std::vector<arm::HubTorqueTable> tables = {
-      {.velocity_rad_per_s = velocity_axis(motion, kVelocities, true)},
-      {.velocity_rad_per_s = velocity_axis(motion, kVelocities, false)}};
-  tables.push_back({.angle_rad = angle_axis(motion, kAngles)});
-  tables.push_back({.angle_rad = angle_axis(motion, kFewAngles),
-                    .velocity_rad_per_s = velocity_axis(motion, kFewVelocities, false)});
-  return tables;
-}
-
-/// Returns the mean square of the torque that an arm lacks.
-double mean_square_missing(const Problem& balance, const arm::Arm& arm,
-                           const std::vector<bool>& runs) {
-  const std::vector<double> missing_N_m = balanced_motion(balance, arm, runs).missing_N_m;
-  return Eigen::VectorXd::Map(missing_N_m.data(), std::ssize(missing_N_m)).squaredNorm() /
-         static_cast<double>(missing_N_m.size());
+  return {{.velocity_rad_per_s = velocity_axis(motion, kVelocities, true)},
+          {.velocity_rad_per_s = velocity_axis(motion, kVelocities, false)},
+          {.angle_rad = angle_axis(motion, kAngles)},
+          {.angle_rad = angle_axis(motion, kFewAngles),
+           .velocity_rad_per_s = velocity_axis(motion, kFewVelocities, false)}};
 }
 
 }  // namespace
@@ -182,7 +172,7 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
   const arm::Arm arm = candidate.extend(balance.experiment().arm);
   if (arm.effects.contains(std::string(arm::kHubTorqueTable))) return std::nullopt;
   const auto& runs = balance.judged_runs();
-  const double before = mean_square_missing(balance, arm, runs);
+  const double before = balanced_motion(balance, arm, runs).mean_square_missing();
   std::optional<EmpiricalLaw> best;
   double least = (1.0 - kLeastShare) * before;
   const std::vector<arm::HubTorqueTable> tables =
@@ -191,7 +181,8 @@ std::optional<EmpiricalLaw> empirical_law(const Problem& balance, const Problem&
     const bool is_over_both = !axes.angle_rad.empty() && !axes.velocity_rad_per_s.empty();
     try {
       const FittedTable found = fitted(balance, arm, axes, kPart * std::sqrt(before));
-      const double left = mean_square_missing(balance, with_table(arm, found.table), runs);
+      const double left =
+          balanced_motion(balance, with_table(arm, found.table), runs).mean_square_missing();
       if (!(left < (is_over_both && best ? kMuchLess * least : least))) continue;
       least = left;
       best = EmpiricalLaw{.table = found.table,

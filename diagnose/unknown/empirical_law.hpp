@@ -30,8 +30,8 @@ arm::Arm with_law(const arm::Arm& arm, const EmpiricalLaw& law);
 /// Fits tables to the residual hub torque that a `candidate` leaves: over velocity, with dry
 /// friction where it jumps at 0, over angle, and over both. The torques are those that make the
 /// missing torque of `balance` least (BalancedMotion), so that they pass its filter as the recorded
-/// torque does. Of these tables that one is taken that leaves least on validation runs, one over both only
-/// where it leaves less than `kMuchLess` of what the others leave.
+/// torque does. Of these tables that one is taken that leaves least on validation runs, one over
+/// both only where it leaves less than `kMuchLess` of what the others leave.
 ///
 /// Empty where it removes less than `kLeastShare` of the mean square of the missing torque, or
 /// brings `simulated` runs no nearer to the data.

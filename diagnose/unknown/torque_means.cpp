@@ -20,7 +20,6 @@ std::vector<Samples> samples_of_curves(const arm::HubTorqueTable& table,
   const bool is_over_both = !table.angle_rad.empty() && !table.velocity_rad_per_s.empty();
   std::vector<Samples> curves(is_over_both ? table.velocity_rad_per_s.size() : 1);
   for (std::size_t k = 0; k < motion.missing_N_m.size(); ++k) {
-    if (!table.angle_rad.empty() && std::isnan(motion.angle_rad[k])) continue;
     std::size_t curve = 0;
     if (is_over_both) {
       const auto nearest = std::ranges::min_element(

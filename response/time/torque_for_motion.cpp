@@ -54,9 +54,8 @@ DrivenMotion torque_for_motion(const arm::ModalModel& model, const ArmParts& par
 
 std::vector<double> transmitted_torque_N_m(const Actuator& actuator,
                                            std::span<const double> torque_N_m, double sample_time_s,
-                                           bool is_linear_between_samples) {
-  const TorquePath path(actuator, torque_N_m, sample_time_s,
-                        is_linear_between_samples ? TorqueHold::first : TorqueHold::zero);
+                                           TorqueHold hold) {
+  const TorquePath path(actuator, torque_N_m, sample_time_s, hold);
   const double decay = actuator.lag_s > 0.0 ? std::exp(-sample_time_s / actuator.lag_s) : 0.0;
   // Part of an interval's mean that is what the lag began with.
   const double kept = actuator.lag_s > 0.0 ? actuator.lag_s / sample_time_s *

@@ -2,6 +2,7 @@
 
 #include "arm/formulation.hpp"
 #include "response/arm_parts.hpp"
+#include "response/time/simulation.hpp"
 
 #include <span>
 #include <vector>
@@ -30,6 +31,6 @@ DrivenMotion torque_for_motion(const arm::ModalModel& model, const ArmParts& par
 /// behind the last it stays as it is.
 std::vector<double> transmitted_torque_N_m(const Actuator& actuator,
                                            std::span<const double> torque_N_m, double sample_time_s,
-                                           bool is_linear_between_samples);
+                                           TorqueHold hold);
 
 }  // namespace flexarm::response

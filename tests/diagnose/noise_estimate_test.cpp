@@ -151,6 +151,22 @@ TEST(NoiseEstimate, AsksForNoForcesOnTheModesWithoutAny) {
   EXPECT_EQ(found.model.modal_force_N_m, 0.0);
 }
 
+TEST(NoiseEstimate, HasTheFrictionThatTheArmLacksForADisturbance) {
+  constexpr double kFriction_N_m = 0.02;
+  const Experiment experiment =
+      simulated_experiment({effects::named("coulomb_friction", {{"torque", kFriction_N_m}})});
+  const Problem problem(experiment);
+  const NoiseEstimator estimator(experiment, problem.observations(), problem.predictor());
+  const auto& runs = problem.estimation_runs();
+  const NoiseModel noise = estimator.model(experiment.arm, runs).model;
+  // The friction has that size wherever the hub turns. The filter's estimate is a projection: its
+  // mean square is below that of the truth by the variance of its error.
+  const double estimate_N_m =
+      estimated_disturbance_N_m(problem.predictor(), experiment.arm, runs, noise);
+  EXPECT_LT(estimate_N_m, kFriction_N_m);
+  EXPECT_GT(estimate_N_m, 0.75 * kFriction_N_m);
+}
+
 TEST(PredictorChoice, OutputErrorWhereItLeavesNoise) {
   const Experiment experiment =
       simulated_experiment({effects::named("coulomb_friction", {{"torque", 0.01}})});
@@ -233,9 +249,7 @@ TEST(PredictorChoice, TorqueBalanceJudgesHubAndBeamByTheMotion) {
       named(experiment, {"coulomb_friction", "hub_spring", "flexural_rigidity"});
   const Problem problem(experiment);
   const SelectionOptions options;
-  const PredictedSelection made =
-      select_by_balance({hypotheses, options},
-                        {.selection = Selection{problem}, .reason = "", .simulated = problem}, {});
+  const PredictedSelection made = select_by_balance({hypotheses, options}, problem, {});
   const Candidate& chosen = made.selection.chosen.fit.candidate;
   ASSERT_EQ(chosen.labels(), (std::set<std::string>{"coulomb_friction", "flexural_rigidity"}));
   for (std::size_t i = 0; i < chosen.effects.size(); ++i) {

@@ -92,10 +92,11 @@ TEST(TorqueForMotion, RefusesForcesAlongTheBeam) {
 
 TEST(TransmittedTorque, IsTheMeanOverEachInterval) {
   const std::vector<double> torque = {1.0, 3.0, 3.0};
-  EXPECT_EQ(transmitted_torque_N_m({}, torque, 0.1, false), torque);
-  EXPECT_EQ(transmitted_torque_N_m({}, torque, 0.1, true), (std::vector{2.0, 3.0, 3.0}));
+  EXPECT_EQ(transmitted_torque_N_m({}, torque, 0.1, TorqueHold::zero), torque);
+  EXPECT_EQ(transmitted_torque_N_m({}, torque, 0.1, TorqueHold::first),
+            (std::vector{2.0, 3.0, 3.0}));
   // Late by a quarter of the interval.
-  const auto late = transmitted_torque_N_m({.delay_s = 0.025}, torque, 0.1, false);
+  const auto late = transmitted_torque_N_m({.delay_s = 0.025}, torque, 0.1, TorqueHold::zero);
   EXPECT_NEAR(late[0], 0.75, 1e-12);
   EXPECT_NEAR(late[1], 0.25 * 1.0 + 0.75 * 3.0, 1e-12);
 }
@@ -103,8 +104,8 @@ TEST(TransmittedTorque, IsTheMeanOverEachInterval) {
 TEST(TransmittedTorque, RisesBehindALag) {
   constexpr double kLag_s = 0.3;
   constexpr double kInterval_s = 0.1;
-  const auto made =
-      transmitted_torque_N_m({.lag_s = kLag_s}, std::vector(20, 1.0), kInterval_s, false);
+  const auto made = transmitted_torque_N_m({.lag_s = kLag_s}, std::vector(20, 1.0), kInterval_s,
+                                           TorqueHold::zero);
   for (std::size_t k = 0; k < made.size(); ++k) {
     // Mean of 1 - e^(-t/T) over the interval.
     const double begin = std::exp(-static_cast<double>(k) * kInterval_s / kLag_s);

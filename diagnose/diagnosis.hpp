@@ -112,7 +112,7 @@ struct Diagnosis {
 Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& hypotheses,
                    const SelectionOptions& options = {}, const DiagnosisProgress& progress = {});
 
-/// Time after the deadline in which optional parts of a report are still computed.
+/// Time after the search in which optional parts of a report are still computed.
 inline constexpr std::chrono::seconds kReportTime{1};
 
 }  // namespace flexarm::diagnose

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace flexarm::diagnose {
@@ -58,8 +59,10 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request
   SelectionOptions options;
   options.most_causes = request.most_causes;
   options.predictor = chosen_predictor(request);
-  options.deadline = deadline;
-  if (deadline) options.last = *deadline + kReportTime;
+  if (deadline) {
+    options.deadline = std::max(*halfway(deadline), *deadline - kReportTime);
+    options.last = *deadline + kReportTime;
+  }
   Diagnosis diagnosis;
   try {
     diagnosis = diagnose(experiment, hypotheses_left, options, progress);

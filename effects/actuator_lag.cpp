@@ -1,5 +1,7 @@
 #include "effects/registry/entry.hpp"
 
+#include <algorithm>
+
 namespace flexarm::effects {
 
 Entry actuator_lag() {
@@ -19,7 +21,8 @@ Entry actuator_lag() {
                                 }}),
       .shows = Shows::in_time_and_frequency,
       .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
-        return {{"time_constant", 0.02 * scales.shortest_time_s, 2000.0 * scales.shortest_time_s,
+        return {{"time_constant", 0.02 * scales.shortest_time_s,
+                 std::min(2000.0 * scales.shortest_time_s, scales.longest_lag_s()),
                  Spacing::from_zero}};
       },
       .prior = Likely::common,

@@ -40,6 +40,7 @@ Entry beam_length() {
             {.name = "factor", .lowest = shortest_factor(scales), .highest = 1.6, .neutral = 1.0}};
       },
       .prior = Likely::common,
+      .usual_deviation = 0.005,
       .family = Family::beam_stiffness,
       .speaks_for =
           "all poles and zeros shifted by the same ratio, 1/length^2; rigid-body inertia changed "

@@ -32,6 +32,7 @@ Entry beam_thickness() {
         return {{.name = "factor", .lowest = 0.6, .highest = 1.6, .neutral = 1.0}};
       },
       .prior = Likely::common,
+      .usual_deviation = 0.02,
       .family = Family::beam_stiffness,
       .speaks_for =
           "all poles and zeros, and the rigid-body inertia of the beam, changed by the same ratio",

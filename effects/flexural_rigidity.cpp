@@ -21,6 +21,7 @@ Entry flexural_rigidity() {
         return {{.name = "factor", .lowest = 0.3, .highest = 3.3, .neutral = 1.0}};
       },
       .prior = Likely::common,
+      .usual_deviation = 0.05,
       .family = Family::beam_stiffness,
       .speaks_for = "all poles and zeros shifted by the same ratio; rigid-body inertia unchanged",
       .refuted_by = "poles and zeros shifted by different ratios"};

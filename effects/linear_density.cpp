@@ -20,6 +20,7 @@ Entry linear_density() {
             return {{.name = "factor", .lowest = 0.3, .highest = 3.3, .neutral = 1.0}};
           },
           .prior = Likely::common,
+          .usual_deviation = 0.02,
           .family = Family::beam_mass,
           .speaks_for = "lower poles and zeros, larger rigid-body inertia",
           .refuted_by = "unchanged rigid-body inertia"};

@@ -23,6 +23,7 @@ Entry sensor_gain() {
         return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
       },
       .prior = Likely::common,
+      .usual_deviation = 0.1,
       .family = Family::sensor,
       .speaks_for =
           "one sensor scaled by the same ratio at all frequencies; poles, zeros and the other "

@@ -1,5 +1,7 @@
 #include "effects/registry/entry.hpp"
 
+#include <algorithm>
+
 namespace flexarm::effects {
 
 Entry sensor_lag() {
@@ -22,7 +24,8 @@ Entry sensor_lag() {
           .shows = Shows::in_time_and_frequency,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             return {{"time_constant", 0.02 * scales.shortest_time_s,
-                     1000.0 * scales.shortest_time_s, Spacing::from_zero}};
+                     std::min(1000.0 * scales.shortest_time_s, scales.longest_lag_s()),
+                     Spacing::from_zero}};
           },
           .prior = Likely::common,
           .family = Family::timing,

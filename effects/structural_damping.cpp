@@ -21,7 +21,7 @@ Entry structural_damping() {
           .shows = Shows::in_all,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             const double scale_rad_per_s = arm::omega_scale_rad_per_s(scales.beam);
-            return {{"time", 1e-3 / scale_rad_per_s, 2.0 / scale_rad_per_s, Spacing::from_zero}};
+            return {{"time", 1e-3 / scale_rad_per_s, 0.3 / scale_rad_per_s, Spacing::from_zero}};
           },
           .prior = Likely::common,
           .family = Family::beam_dissipation,

@@ -1,5 +1,7 @@
 #include "effects/registry/entry.hpp"
 
+#include <algorithm>
+
 namespace flexarm::effects {
 
 Entry time_delay() {
@@ -21,7 +23,8 @@ Entry time_delay() {
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
             // A loop that logs the torque of its last step beside the readings of this one is a
             // sample late. Torque that is held jumps there: the range goes on beyond.
-            return {{"delay", -4.0 * scales.shortest_time_s, 1000.0 * scales.shortest_time_s,
+            return {{"delay", -4.0 * scales.shortest_time_s,
+                     std::min(1000.0 * scales.shortest_time_s, scales.longest_lag_s()),
                      Spacing::about_zero}};
           },
           .prior = Likely::common,

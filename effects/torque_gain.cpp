@@ -22,6 +22,7 @@ Entry torque_gain() {
             return {{.name = "factor", .lowest = 0.2, .highest = 5.0, .neutral = 1.0}};
           },
           .prior = Likely::common,
+          .usual_deviation = 0.1,
           .family = Family::torque_scale,
           .speaks_for = "all sensors scaled by the same ratio; poles and zeros unchanged",
           .refuted_by = "shifted poles or zeros"};

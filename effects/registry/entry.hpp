@@ -113,6 +113,9 @@ struct Entry {
   std::vector<std::string> same_as = {};
   /// How likely an arm has it before anything is measured.
   Likely prior = Likely::possible;
+  /// For a factor of a number of the arm file that states no uncertainty: the standard deviation of
+  /// its logarithm that such numbers usually have. 0 where that is unknown.
+  double usual_deviation = 0.0;
   /// Stated by each file effects/NAME.cpp.
   Family family = Family::stated_law;
   std::string speaks_for;  ///< what the data show where it is the cause

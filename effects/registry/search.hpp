@@ -35,6 +35,9 @@ struct Scales {
   double bending_stiffness_N_m_per_rad() const {
     return beam.flexural_rigidity_N_m2 / beam.length_m;
   }
+  /// Twice the natural time of the beam, sqrt(m l^4/(EI)): what is later, or lags behind for
+  /// longer, is another motion.
+  double longest_lag_s() const { return 2.0 / arm::omega_scale_rad_per_s(beam); }
   /// m l [kg].
   double beam_mass_kg() const { return beam.linear_density_kg_per_m * beam.length_m; }
 };

@@ -74,6 +74,7 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   cause.effect = effect.effect;
   cause.sensor = effect.sensor;
   cause.parameters = estimates_of(chosen, index, errors);
+  cause.is_at_end_of_range = effect.is_at_end_of_range(chosen.values_of(index));
   cause.share = share_taken(without.estimation, selection.chosen.estimation);
   cause.confidence = posterior.of(effect);
   const std::vector<Rival> rivals = rivals_of(effect, selection, posterior);
@@ -96,10 +97,16 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
       return rival.odds <= kIndistinguishableOdds &&
              rival.effect->entry->family != effect.entry->family;
     });
-    cause.grade = grade_of(*cause.figures, has_rival, selection.chosen.leaves_noise());
+    cause.grade = cause.is_at_end_of_range
+                      ? Grade::candidate
+                      : grade_of(*cause.figures, has_rival, selection.chosen.leaves_noise());
   }
   cause.evidence =
       evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);
+  if (cause.is_at_end_of_range) {
+    cause.evidence.push_back(fmt::format("Its {} is at the end of the range that is searched.",
+                                         effect.parameters[*effect.size_parameter()].name));
+  }
   cause.refuted_by = effect.entry->refuted_by;
   return cause;
 }

@@ -130,6 +130,14 @@ std::optional<std::size_t> Hypothesis::size_parameter() const {
   return first_of(parameters, [](const auto& one) { return one.neutral_coordinate().has_value(); });
 }
 
+bool Hypothesis::is_at_end_of_range(std::span<const double> values) const {
+  constexpr double kEnd = 1e-3;
+  const auto sized = size_parameter();
+  if (!sized) return false;
+  const double place = effects::coordinates_of(parameters, values)[*sized];
+  return place < kEnd || place > 1.0 - kEnd;
+}
+
 std::optional<std::size_t> Hypothesis::place_parameter() const {
   return first_of(parameters, [](const SearchedParameter& one) {
     return one.spacing == effects::Spacing::linear && !one.periodic && !one.neutral_coordinate();

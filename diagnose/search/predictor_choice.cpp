@@ -168,11 +168,15 @@ PredictedSelection select_beyond_simulation(PredictedSelection& made,
     }
     const double error_at_hub = own_error(*at_hub);
     const double error_of_simulation = own_error(made);
+    const double simulated_error = at_hub->simulated_error();
+    const Problem& simulated = made.simulated;
+    const bool is_worse =
+        simulated_error > kAbout * simulated.judged_error(simulated.experiment().arm);
     const std::string errors =
         fmt::format("it leaves {:.3g} % of the torque, a simulation {:.3g} % of the signals",
                     100.0 * error_at_hub, 100.0 * error_of_simulation);
-    if (other.cancelled || error_at_hub <= error_of_simulation ||
-        at_hub->simulated_error() < error_of_simulation) {
+    if (other.cancelled || simulated_error < error_of_simulation ||
+        (error_at_hub <= error_of_simulation && !is_worse)) {
       if (!other.end) other.end = made.selection.end;
       if (at_hub->balance) at_hub->reason = errors;
       return *std::move(at_hub);

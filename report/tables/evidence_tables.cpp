@@ -31,7 +31,8 @@ std::string cause_text(const diagnose::Cause& cause) {
   if (!cause.confusable_with.empty()) {
     text += fmt::format(", or {}", fmt::join(cause.confusable_with, " or "));
   }
-  return fmt::format("{} ({})", text, to_string(cause.grade));
+  return fmt::format("{} ({}{})", text, to_string(cause.grade),
+                     cause.is_at_end_of_range ? ", at the end of its range" : "");
 }
 
 std::string causes_text(const diagnose::Diagnosis& diagnosis) {

@@ -34,10 +34,10 @@ Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& r
 /// Throws InputError for a number of causes below 1 and an unknown predictor.
 void require_valid(const DiagnosisRequest& request);
 
-/// Returns the diagnosis that is asked for, by a search that ends kReportTime before the deadline, or
-/// halfway to it. Throws InputError as `require_valid`, for an effect that is unknown or that these
-/// runs do not show, and where kReportTime after the deadline not even the arm as filed has been
-/// simulated.
+/// Returns the diagnosis that is asked for, by a search that ends kReportTime before the deadline,
+/// or halfway to it. Throws InputError as `require_valid`, for an effect that is unknown or that
+/// these runs do not show, and where kReportTime after the deadline not even the arm as filed has
+/// been simulated.
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request,
                    const Deadline& deadline, const DiagnosisProgress& progress = {});
 

@@ -40,6 +40,19 @@ MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::siz
   return made;
 }
 
+/// Returns what the effect at `index` changes of the lines of a fit, by their derivatives; empty
+/// for one without a value at which it does nothing.
+std::optional<VectorXd> tangent_change(const ScoredFit& fit, std::size_t index) {
+  const Hypothesis& effect = fit.candidate.effects[index];
+  const auto sized = effect.size_parameter();
+  if (!sized) return std::nullopt;
+  const SearchedParameter& parameter = effect.parameters[*sized];
+  const double place = parameter.coordinate(fit.candidate.values_of(index)[*sized]);
+  const auto column = static_cast<Index>(fit.candidate.nuisances.size() +
+                                         fit.candidate.values_before(index) + *sized);
+  return (place - *parameter.neutral_coordinate()) * fit.jacobian.col(column);
+}
+
 /// Returns groups of values of an effect to look at (start_places.hpp), and of small parts of its
 /// sizes: of one parameter one group, of several one with each size. Beside no effect another group
 /// is of one parameter's whole range: far from the value at which an effect does nothing its change
@@ -85,11 +98,12 @@ struct Addition {
 /// A set that an effect may be added to, as the weighted lines have it.
 class Ground {
  public:
-  Ground(const Likelihood& likelihood, Candidate set, VectorXd lines, const MatrixXd& jacobian)
+  Ground(const Likelihood& likelihood, Candidate set, VectorXd lines, const MatrixXd& jacobian,
+         VectorXd weights)
       : likelihood_(likelihood),
         set_(std::move(set)),
         lines_(std::move(lines)),
-        weights_(likelihood.weights(lines_)),
+        weights_(std::move(weights)),
         roots_(weights_.cwiseSqrt()),
         refitted_(roots_.asDiagonal() * jacobian),
         left_(refitted_(roots_.cwiseProduct(lines_))),
@@ -113,10 +127,11 @@ class Ground {
     const VectorXd predicted = unweighted(left_ + size * refitted);
     const double parameters = static_cast<double>(effect.parameters.size());
     const double determined = parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
+    std::vector<double> values = values_at(effect, places, size);
+    const double added = price(effect, set_.effects) + price_of_value(effect, values) + determined;
     return {.move = {.added = &effect,
-                     .values = values_at(effect, places, size),
-                     .score = likelihood_.cost(predicted) + price_ + price(effect, set_.effects) +
-                              determined},
+                     .values = std::move(values),
+                     .score = likelihood_.cost(predicted) + price_ + added},
             .size = size,
             .change = &change};
   }
@@ -147,13 +162,22 @@ class Neighbourhood {
   Neighbourhood(const Likelihood& likelihood, const ScoredFit& base, const ReportedWork& work)
       : likelihood_(likelihood), base_(base), work_(work) {
     const Candidate& set = base.candidate;
-    whole_ = std::make_unique<Ground>(likelihood, set, base.lines, base.jacobian);
+    const VectorXd weights = likelihood.weights(base.lines);
+    const bool is_noise = likelihood.is_noise(base.lines);
+    whole_ = std::make_unique<Ground>(likelihood, set, base.lines, base.jacobian, weights);
     without_.resize(set.effects.size());
+    by_tangent_.resize(set.effects.size());
     in_parallel(without_.size(), [&](std::size_t i) {
       const Candidate rest = set.without(i);
+      const MatrixXd jacobian = without_effect(base.jacobian, set, i);
       if (auto lines = lines_of(rest)) {
-        without_[i] = std::make_unique<Ground>(likelihood, rest, *std::move(lines),
-                                               without_effect(base.jacobian, set, i));
+        const VectorXd own = likelihood.weights(*lines);
+        without_[i] = std::make_unique<Ground>(likelihood, rest, *std::move(lines), jacobian, own);
+      }
+      if (!is_noise) return;
+      if (const auto change = tangent_change(base, i)) {
+        by_tangent_[i] =
+            std::make_unique<Ground>(likelihood, rest, base.lines - *change, jacobian, weights);
       }
     });
   }
@@ -242,7 +266,8 @@ class Neighbourhood {
 
   /// Returns the set without the effect at `dropped`; the whole set behind the last one.
   const Ground& ground_of(std::size_t dropped) const {
-    return dropped < without_.size() ? *without_[dropped] : *whole_;
+    if (dropped == without_.size()) return *whole_;
+    return by_tangent_[dropped] ? *by_tangent_[dropped] : *without_[dropped];
   }
 
   std::optional<VectorXd> lines_of(const Candidate& candidate) const {
@@ -255,6 +280,9 @@ class Neighbourhood {
   const ReportedWork& work_;
   std::unique_ptr<Ground> whole_;
   std::vector<std::unique_ptr<Ground>> without_;  ///< one an effect; null where there is no arm
+  /// Of a set that leaves noise: to first order in what the effect changes. The set without it is
+  /// so far from the data that the curvature of its change hides which other effect does the same.
+  std::vector<std::unique_ptr<Ground>> by_tangent_;
 };
 
 }  // namespace

@@ -22,7 +22,10 @@ using Eigen::VectorXd;
 namespace {
 
 /// The difference quotient of a place.
-constexpr double kFitStep = 1e-3;
+constexpr double kFitStep = 1e-4;
+/// That of a law of time, such as dry friction, which switches: over a small step a switch more or
+/// less is chance.
+constexpr double kSwitchedStep = 1e-3;
 /// The longest step of a place.
 constexpr double kLongestStep = 0.35;
 constexpr double kFirstDamping = 1e-3;
@@ -34,7 +37,14 @@ constexpr double kPoorGain = 0.25;
 class Places {
  public:
   explicit Places(const Candidate& start) : start_(start), unbounded_(std::ssize(start.nuisances)) {
-    for (const SearchedParameter& one : start.parameters()) is_periodic_.push_back(one.periodic);
+    steps_.assign(start.nuisances.size(), kFitStep);
+    for (const Hypothesis& effect : start.effects) {
+      const bool is_smooth = effect.entry->shows != effects::Shows::in_time;
+      for (const SearchedParameter& one : effect.parameters) {
+        is_periodic_.push_back(one.periodic);
+        steps_.push_back(is_smooth ? kFitStep : kSwitchedStep);
+      }
+    }
   }
 
   Candidate at(const VectorXd& places) const {
@@ -51,11 +61,14 @@ class Places {
     }
     return places;
   }
+  /// Returns the step of the difference quotient of a place.
+  double step(Index i) const { return steps_[static_cast<std::size_t>(i)]; }
 
  private:
   const Candidate& start_;
   Index unbounded_;
   std::vector<bool> is_periodic_;
+  std::vector<double> steps_;
 };
 
 /// The derivatives of the lines by the places of a candidate: difference quotients, and between
@@ -100,7 +113,7 @@ class Derivatives {
       work_.go_on();
       const Index i = columns[k];
       VectorXd beside = here;
-      const double step = here(i) < 0.5 ? kFitStep : -kFitStep;
+      const double step = here(i) < 0.5 ? places_.step(i) : -places_.step(i);
       beside(i) += step;
       if (const auto moved = likelihood_.lines_of(places_.at(beside))) {
         matrix_.col(i) = (*moved - lines) / step;
@@ -178,10 +191,19 @@ double price(const Hypothesis& effect, std::span<const Hypothesis> others) {
   return -2.0 * std::log(probability);
 }
 
+double price_of_value(const Hypothesis& effect, std::span<const double> values) {
+  const double usual = effect.entry->usual_deviation;
+  if (usual == 0.0) return 0.0;
+  const double deviation = std::log(values.front()) / usual;
+  return 2.0 * std::log1p(deviation * deviation);
+}
+
 double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorXd& weights) {
   const std::span<const Hypothesis> effects = candidate.effects;
   double sum = 0.0;
-  for (std::size_t i = 0; i < effects.size(); ++i) sum += price(effects[i], effects.first(i));
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    sum += price(effects[i], effects.first(i)) + price_of_value(effects[i], candidate.values_of(i));
+  }
   if (jacobian.cols() == 0) return sum;
   MatrixXd weighted = weights.cwiseSqrt().asDiagonal() * jacobian;
   weighted.rightCols(std::ssize(candidate.values)) *= kPlaceDeviation;

@@ -32,9 +32,17 @@ inline constexpr double kPlaceDeviation = 0.3;
 /// sensors are causes of their own.
 double price(const Hypothesis& effect, std::span<const Hypothesis> others);
 
+/// Returns the price of the value of an effect that is a factor of a number of the arm file,
+///
+///     2 ln(1 + (ln(value)/s)^2),
+///
+/// s the deviation that such numbers usually have (effects::Entry::usual_deviation): the tails of a
+/// Cauchy distribution, as a few are wrong by far. 0 for other effects.
+double price_of_value(const Hypothesis& effect, std::span<const double> values);
+
 /// Returns the price of a fitted candidate beside its -2 ln L,
 ///
-///     sum over effects of -2 ln p  +  ln det(I + P J^T W J),
+///     sum over effects of (-2 ln p + price_of_value)  +  ln det(I + P J^T W J),
 ///
 /// P the prior variance of nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the
 /// lines: the Laplace approximation of the evidence. A parameter that the data determine to a

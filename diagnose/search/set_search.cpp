@@ -32,8 +32,8 @@ enum class Looks { predicted, broad };
 /// Starts of one set that a fit goes on from after the first look.
 constexpr std::size_t kStartsOfOne = 3;
 
-/// Rivals of each effect of the final set that are fitted.
-constexpr std::size_t kRivalsOfOne = 2;
+/// Rivals of each effect of the final set that are fitted beside those of its family.
+constexpr std::size_t kRivalsOfOne = 3;
 
 /// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
 /// Exchanges do not make a set larger.
@@ -46,15 +46,21 @@ bool leaves_noise(const Likelihood& likelihood, const ScoredFit& set) {
 /// One climb on a rung of the ladder, which has a part of the data, or all.
 class Rung {
  public:
+  /// A climb begins without the effects of the labels in `hopeless`.
   Rung(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-       const SetSearchOptions& options, const ReportedWork& work, Climb end)
+       const SetSearchOptions& options, const ReportedWork& work, Climb end,
+       const Labels& hopeless = {})
       : likelihood_(likelihood),
         least_time_s_(options.least_time *
                       scales_of(likelihood.problem().experiment()).shortest_time_s),
-        hypotheses_(hypotheses),
         options_(options),
         work_(work),
-        end_(end) {}
+        end_(end) {
+    for (const Hypothesis& one : hypotheses) {
+      (hopeless.contains(one.label()) ? left_out_ : hypotheses_).push_back(one);
+    }
+    takes_all_ = left_out_.empty();
+  }
 
   /// Fits the sets of the beam to these data, or the arm as filed where none can be; the best
   /// first.
@@ -83,22 +89,34 @@ class Rung {
       std::ranges::move(neighbours, std::back_inserter(beam));
       keep_best(beam, width);
       const bool falls = beam.front().score < before;
-      if (!falls && looks == widest()) break;
+      if (!falls && looks == widest() && !take_left_out(beam)) break;
       looks = falls ? Looks::predicted : widest();
     }
     beam.front() = fitted(beam.front().candidate);
   }
 
+  /// Climbs on from rivals that are better than the best set of the beam until there is none: the
+  /// score test is linear, and far from noise a swap may be better than it predicts.
+  void settle(std::vector<ScoredFit>& beam) {
+    while (!leaves_noise(likelihood_, beam.front())) {
+      std::vector<ScoredFit> others = rivals(beam.front().candidate);
+      const auto best = std::ranges::min_element(others, {}, &ScoredFit::score);
+      if (best == others.end() || !(best->score < beam.front().score - options_.worth)) return;
+      beam = {*best};
+      climb(beam, 1, Looks::predicted);
+    }
+  }
+
   /// Returns fits of the most likely swaps of a set whose score is `near` that of the set on these
   /// data, or lower; of the empty set those of the most likely effects. Tried are those that are
-  /// predicted to be near, and, since the prediction is linear and near noise too high by much, for
-  /// each effect all of its family, and the best of the kRivalsOfOne families that are best.
+  /// predicted to be near, and, since the prediction is linear, for each effect all of its family,
+  /// and the best kRivalsOfOne others.
   std::vector<ScoredFit> rivals(const Candidate& set) {
     const ScoredFit base = fitted(set);
     if (!base.is_possible()) return {};
     const bool is_empty = set.effects.empty();
     std::vector<Move> swaps = moves_from(base);
-    std::map<std::size_t, std::set<effects::Family>> families;
+    std::map<std::size_t, std::size_t> fitted_for;
     std::set<Labels> tried;
     std::erase_if(swaps, [&](const Move& one) {
       if (one.added == nullptr || one.dropped.has_value() == is_empty) return true;
@@ -106,8 +124,7 @@ class Rung {
       if (one.score <= base.score + options_.near) return false;
       const effects::Family family = one.added->entry->family;
       if (!is_empty && set.effects[*one.dropped].entry->family == family) return false;
-      auto& met = families[one.dropped.value_or(0)];
-      return met.size() == kRivalsOfOne || !met.insert(family).second;
+      return fitted_for[one.dropped.value_or(0)]++ >= kRivalsOfOne;
     });
     std::vector<ScoredFit> made(swaps.size());
     in_parallel(swaps.size(), [&](std::size_t i) {
@@ -120,20 +137,18 @@ class Rung {
     return made;
   }
 
-  /// Returns the `most` effects whose moves of this set are predicted to be best, and those of the
-  /// families of its effects; all of a set that cannot be computed.
-  std::vector<Hypothesis> shortlist(const ScoredFit& set, std::size_t most) {
-    if (!set.is_possible()) return hypotheses_;
-    std::set<std::string> kept;
-    for (const Move& move : moves_from(set)) {
-      if (move.added != nullptr && kept.size() < most) kept.insert(move.added->label());
+  /// Returns the labels of the effects that are predicted to raise the score of a set by more than
+  /// `hope`, or cannot be computed beside it; of none where the set itself cannot.
+  Labels hopeless_beside(const ScoredFit& set) {
+    if (!set.is_possible()) return {};
+    Labels made;
+    for (const auto* effects : {&hypotheses_, &left_out_}) {
+      for (const Hypothesis& one : *effects) made.insert(one.label());
     }
-    std::vector<Hypothesis> made;
-    for (const Hypothesis& one : hypotheses_) {
-      const bool is_of_family = std::ranges::any_of(set.candidate.effects, [&](const auto& own) {
-        return own.entry->family == one.entry->family;
-      });
-      if (is_of_family || kept.contains(one.label())) made.push_back(one);
+    for (const Move& move : moves_from(set)) {
+      if (move.added != nullptr && move.score < set.score + options_.hope) {
+        made.erase(move.added->label());
+      }
     }
     return made;
   }
@@ -141,6 +156,28 @@ class Rung {
  private:
   bool is_over(const ScoredFit& best) const {
     return end_ == Climb::to_noise && leaves_noise(likelihood_, best);
+  }
+
+  /// Takes up the effects that were left out, unless the best set of the beam leaves noise. Returns
+  /// whether it did.
+  bool take_left_out(const std::vector<ScoredFit>& beam) {
+    if (takes_all_ || leaves_noise(likelihood_, beam.front())) return false;
+    takes_all_ = true;
+    for (const ScoredFit& set : beam) {
+      const auto known = moves_.find(set.candidate.labels());
+      if (known != moves_.end()) add_moves(known->second, set, left_out_);
+    }
+    expanded_.clear();
+    return true;
+  }
+
+  void add_moves(std::vector<Move>& moves, const ScoredFit& set,
+                 const std::vector<Hypothesis>& effects) const {
+    const bool has_drops = !moves.empty();
+    std::vector<Move> more = moves_of(likelihood_, set, effects, work_);
+    if (has_drops) std::erase_if(more, [](const Move& one) { return one.added == nullptr; });
+    std::ranges::move(more, std::back_inserter(moves));
+    std::ranges::stable_sort(moves, {}, &Move::score);
   }
 
   /// Keeps the fits of the lowest score, of `most` sets of effects and so many of one set.
@@ -161,7 +198,10 @@ class Rung {
   /// Returns the moves of `set`, which are computed once.
   const std::vector<Move>& moves_from(const ScoredFit& set) {
     const auto [at, is_new] = moves_.try_emplace(set.candidate.labels());
-    if (is_new) at->second = moves_of(likelihood_, set, hypotheses_, work_);
+    if (is_new) {
+      add_moves(at->second, set, hypotheses_);
+      if (takes_all_) add_moves(at->second, set, left_out_);
+    }
     return at->second;
   }
 
@@ -232,8 +272,10 @@ class Rung {
 
   const Likelihood& likelihood_;
   double least_time_s_;
-  const std::vector<Hypothesis>& hypotheses_;
-  const SetSearchOptions& options_;
+  SetSearchOptions options_;
+  std::vector<Hypothesis> hypotheses_;  ///< without those that are left out
+  std::vector<Hypothesis> left_out_;
+  bool takes_all_ = false;  ///< the moves are of those that are left out too
   const ReportedWork& work_;
   Climb end_;
   std::map<Labels, double> met_;                 ///< the lowest score of each set that was fitted
@@ -294,15 +336,14 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
   const Problem& problem = likelihood.problem();
   FoundSets made;
   std::vector<ScoredFit> beam;
-  std::vector<Hypothesis> searched = hypotheses;
   std::vector<Hypothesis> common = common_of(hypotheses);
-  std::size_t most = hypotheses.size();
+  std::set<std::string> hopeless;
   bool has_climbed = false;
   // Returns whether one effect leaves noise: then no set imitates it with fewer numbers.
   const auto climb_afresh = [&](const Likelihood& part, const std::vector<Hypothesis>& effects,
-                                std::size_t width) {
+                                const SetSearchOptions& how_far, std::size_t width) {
     std::vector<ScoredFit> fresh;
-    Rung rung(part, effects, options, work, Climb::to_noise);
+    Rung rung(part, effects, how_far, work, Climb::to_noise);
     rung.fit(fresh);
     rung.climb(fresh, width, Looks::broad);
     const ScoredFit& best = fresh.front();
@@ -310,20 +351,21 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     std::ranges::move(fresh, std::back_inserter(beam));
     return is_one;
   };
-  const auto climb = [&](const Likelihood& part, std::size_t width, Climb end) {
-    Rung rung(part, searched, options, work, end);
+  SetSearchOptions to_depth = options;
+  to_depth.most_effects = std::min(options.most_effects, options.depth);
+  const auto climb = [&](const Likelihood& part, std::size_t width, Climb end, bool settles) {
+    Rung rung(part, hypotheses, options, work, end, hopeless);
     rung.fit(beam);
     const bool is_noise = leaves_noise(part, beam.front());
     if (!is_noise) {
-      const bool is_one = !has_climbed && climb_afresh(part, hypotheses, width);
-      if (!is_one) climb_afresh(part, common, width);
+      const bool is_one = !has_climbed && climb_afresh(part, hypotheses, to_depth, width);
+      if (!is_one) climb_afresh(part, common, options, width);
     }
     const bool is_broad = !is_noise && !has_climbed;
     rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
+    if (settles) rung.settle(beam);
     has_climbed = has_climbed || !is_noise;
-    if (!has_climbed || end == Climb::to_the_end) return;
-    most /= options.halving;
-    searched = rung.shortlist(beam.front(), most);
+    if (has_climbed && end != Climb::to_the_end) hopeless = rung.hopeless_beside(beam.front());
   };
   const auto begin_with_starts = [&] {
     for (const Candidate& start : options.starts) {
@@ -333,19 +375,20 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
   try {
     begin_with_starts();
     std::size_t width = options.beam;
+    const std::size_t of_rivals = options.rungs[1];
     std::unique_ptr<const PartOfData> part_for_rivals;  // null where all data are as short
     const std::size_t longest = longest_run(problem.experiment());
     for (const std::size_t samples : options.rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
       auto part = std::make_unique<const PartOfData>(problem, samples, options.coarse_modes);
-      climb(part->likelihood(), width, Climb::to_noise);
+      climb(part->likelihood(), width, Climb::to_noise, samples == of_rivals);
       width = has_climbed ? 1 : width;
-      if (samples == options.rungs[1]) part_for_rivals = std::move(part);
+      if (samples == of_rivals) part_for_rivals = std::move(part);
     }
     work.tell("effects on all data", 0.5);
     begin_with_starts();
-    climb(likelihood, width, Climb::to_the_end);
+    climb(likelihood, width, Climb::to_the_end, false);
     const bool is_noise = leaves_noise(likelihood, beam.front());
     if (is_noise && beam.front().candidate.effects.empty()) return {std::move(beam)};
     work.tell("rivals of the effects that were found", 0.8);

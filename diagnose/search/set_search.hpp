@@ -16,8 +16,11 @@ struct SetSearchOptions {
   std::size_t most_effects = std::numeric_limits<std::size_t>::max();  ///< of a set
   /// Sets that the first rung and the last begin with, beside the arm as filed.
   std::vector<Candidate> starts = {};
-  /// Each rung is climbed with this part of the effects of the one below, the best by prediction.
-  std::size_t halving = 2;
+  /// Effects of the sets that the climb with all effects from the arm as filed ends at.
+  std::size_t depth = 3;
+  /// An effect that is predicted to raise the score by more than this on a rung is looked at on the
+  /// next one where those that are not do not leave noise.
+  double hope = 5.0;
   /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
   /// known better.
   double least_time = 0.1;
@@ -48,11 +51,12 @@ struct FoundSets {
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
 /// - a rung on which the beam does not leave noise is climbed from the arm as filed too: the first
-///   such one with all effects, and each with the `common` effects alone (effects::Likely), unless
-///   one effect by itself left noise; the best of what these and the rung below found goes on;
+///   such one with all effects, to sets of `depth`, and each with the `common` effects alone
+///   (effects::Likely), unless one effect by itself left noise; the best of what these and the rung
+///   below found goes on;
 /// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
-/// - the next rung has a part of the effects, those that do best and those of the families of the
-///   set;
+/// - the next rung begins with the effects that are not hopeless on this one, and goes on with all
+///   where these do not leave noise;
 /// - where the best set leaves noise, exchanges of one effect for another are tried among all
 ///   effects with the sample size of noise: of sets that all leave noise, that decides.
 ///

@@ -126,7 +126,8 @@ class Ground {
     const double size = std::clamp(-refitted.dot(left_) / squares, least, most);
     const VectorXd predicted = unweighted(left_ + size * refitted);
     const double parameters = static_cast<double>(effect.parameters.size());
-    const double determined = parameters * std::log1p(kPlaceDeviation * kPlaceDeviation * squares);
+    const double deviation = place_deviation(effect);
+    const double determined = parameters * std::log1p(deviation * deviation * squares);
     std::vector<double> values = values_at(effect, places, size);
     const double added = price(effect, set_.effects) + price_of_value(effect, values) + determined;
     return {.move = {.added = &effect,

@@ -191,6 +191,13 @@ double price(const Hypothesis& effect, std::span<const Hypothesis> others) {
   return -2.0 * std::log(probability);
 }
 
+double place_deviation(const Hypothesis& effect) {
+  const double usual = effect.entry->usual_deviation;
+  if (usual == 0.0) return kPlaceDeviation;
+  const SearchedParameter& factor = effect.parameters.front();
+  return std::min(kPlaceDeviation, usual / std::log(factor.highest / factor.lowest));
+}
+
 double price_of_value(const Hypothesis& effect, std::span<const double> values) {
   const double usual = effect.entry->usual_deviation;
   if (usual == 0.0) return 0.0;
@@ -206,7 +213,12 @@ double price(const Candidate& candidate, const MatrixXd& jacobian, const VectorX
   }
   if (jacobian.cols() == 0) return sum;
   MatrixXd weighted = weights.cwiseSqrt().asDiagonal() * jacobian;
-  weighted.rightCols(std::ssize(candidate.values)) *= kPlaceDeviation;
+  Index column = std::ssize(candidate.nuisances);
+  for (const Hypothesis& effect : effects) {
+    const Index count = std::ssize(effect.parameters);
+    weighted.middleCols(column, count) *= place_deviation(effect);
+    column += count;
+  }
   MatrixXd information = weighted.transpose() * weighted;
   information.diagonal().array() += 1.0;
   const VectorXd pivots = information.ldlt().vectorD();

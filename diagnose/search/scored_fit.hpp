@@ -32,19 +32,24 @@ inline constexpr double kPlaceDeviation = 0.3;
 /// sensors are causes of their own.
 double price(const Hypothesis& effect, std::span<const Hypothesis> others);
 
-/// Returns the price of the value of an effect that is a factor of a number of the arm file,
+/// Returns the standard deviation of the prior of a place of an effect: kPlaceDeviation, and for a
+/// factor of a number of the arm file that by which such numbers usually are off
+/// (effects::Entry::usual_deviation).
+double place_deviation(const Hypothesis& effect);
+
+/// Returns the price of the value of an effect that is such a factor,
 ///
 ///     2 ln(1 + (ln(value)/s)^2),
 ///
-/// s the deviation that such numbers usually have (effects::Entry::usual_deviation): the tails of a
-/// Cauchy distribution, as a few are wrong by far. 0 for other effects.
+/// s its usual deviation: the tails of a Cauchy distribution, as a few numbers are wrong by far. 0
+/// for other effects.
 double price_of_value(const Hypothesis& effect, std::span<const double> values);
 
 /// Returns the price of a fitted candidate beside its -2 ln L,
 ///
 ///     sum over effects of (-2 ln p + price_of_value)  +  ln det(I + P J^T W J),
 ///
-/// P the prior variance of nuisances, 1, and of places, kPlaceDeviation^2, W the weights of the
+/// P the prior variance of nuisances, 1, and of places, place_deviation^2, W the weights of the
 /// lines: the Laplace approximation of the evidence. A parameter that the data determine to a
 /// thousandth of its range costs 2 ln(0.3/0.001) = 11.4.
 double price(const Candidate& candidate, const Eigen::MatrixXd& jacobian,

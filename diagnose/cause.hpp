@@ -44,7 +44,7 @@ struct Cause {
   /// The evidence and its grade; none where the time limit left no time for it.
   std::optional<EffectEvidence> figures = {};
   Grade grade = Grade::candidate;
-  /// Its size is at an end of the range of its search: it is a candidate.
+  /// Whether its size is at an end of the range of its search, which makes it a candidate.
   bool is_at_end_of_range = false;
   double share = 0.0;  ///< explained of the excess residual without it, the others refitted
   /// Effects that these data do not distinguish from it: other names of the same model, and rivals

@@ -281,8 +281,9 @@ class Neighbourhood {
   const ReportedWork& work_;
   std::unique_ptr<Ground> whole_;
   std::vector<std::unique_ptr<Ground>> without_;  ///< one an effect; null where there is no arm
-  /// Of a set that leaves noise: to first order in what the effect changes. The set without it is
-  /// so far from the data that the curvature of its change hides which other effect does the same.
+  /// Grounds of a set that leaves noise, without each effect to first order in what it changes.
+  /// Without it altogether the set is so far from the data that the curvature of its change hides
+  /// which other effect does the same. Null for other sets.
   std::vector<std::unique_ptr<Ground>> by_tangent_;
 };
 
@@ -295,7 +296,7 @@ Candidate Move::of(const Candidate& set, bool is_refitted) const {
 }
 
 std::vector<Move> moves_of(const Likelihood& likelihood, const ScoredFit& base,
-                           const std::vector<Hypothesis>& others, const ReportedWork& work) {
+                           std::span<const Hypothesis> others, const ReportedWork& work) {
   const Neighbourhood neighbourhood(likelihood, base, work);
   std::vector<std::vector<Move>> with_each(others.size());
   in_parallel(others.size(), [&](std::size_t i) { with_each[i] = neighbourhood.with(others[i]); });

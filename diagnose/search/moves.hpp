@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -38,6 +39,6 @@ struct Move {
 /// which act at one place, and of an effect and a limit of it. There a swap also begins at the
 /// values of the parameters that both have. Throws Cancelled where the work is cancelled.
 std::vector<Move> moves_of(const Likelihood& likelihood, const ScoredFit& base,
-                           const std::vector<Hypothesis>& others, const ReportedWork& work);
+                           std::span<const Hypothesis> others, const ReportedWork& work);
 
 }  // namespace flexarm::diagnose

@@ -21,10 +21,10 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The difference quotient of a place.
+/// Step of the difference quotient of a place.
 constexpr double kFitStep = 1e-4;
-/// That of a law of time, such as dry friction, which switches: over a small step a switch more or
-/// less is chance.
+/// Step for a law that shows in time alone, such as dry friction, which switches: over a small step
+/// a switch more or less is chance.
 constexpr double kSwitchedStep = 1e-3;
 /// The longest step of a place.
 constexpr double kLongestStep = 0.35;
@@ -195,7 +195,8 @@ double place_deviation(const Hypothesis& effect) {
   const double usual = effect.entry->usual_deviation;
   if (usual == 0.0) return kPlaceDeviation;
   const SearchedParameter& factor = effect.parameters.front();
-  return std::min(kPlaceDeviation, usual / std::log(factor.highest / factor.lowest));
+  const double deviation = factor.coordinate(std::exp(usual)) - *factor.neutral_coordinate();
+  return std::min(kPlaceDeviation, deviation);
 }
 
 double price_of_value(const Hypothesis& effect, std::span<const double> values) {

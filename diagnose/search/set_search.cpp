@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -53,14 +54,16 @@ class Rung {
       : likelihood_(likelihood),
         least_time_s_(options.least_time *
                       scales_of(likelihood.problem().experiment()).shortest_time_s),
+        hypotheses_(hypotheses),
         options_(options),
         work_(work),
         end_(end) {
-    for (const Hypothesis& one : hypotheses) {
-      (hopeless.contains(one.label()) ? left_out_ : hypotheses_).push_back(one);
-    }
-    takes_all_ = left_out_.empty();
+    const auto left_out = std::ranges::stable_partition(
+        hypotheses_, [&](const Hypothesis& one) { return !hopeless.contains(one.label()); });
+    searched_ = hypotheses_.size() - left_out.size();
   }
+
+  ScoredFit fitted(const Candidate& start) const { return scored_fit(likelihood_, start, work_); }
 
   /// Fits the sets of the beam to these data, or the arm as filed where none can be; the best
   /// first.
@@ -99,7 +102,7 @@ class Rung {
   /// score test is linear, and far from noise a swap may be better than it predicts.
   void settle(std::vector<ScoredFit>& beam) {
     while (!leaves_noise(likelihood_, beam.front())) {
-      std::vector<ScoredFit> others = rivals(beam.front().candidate);
+      std::vector<ScoredFit> others = rivals(beam.front());
       const auto best = std::ranges::min_element(others, {}, &ScoredFit::score);
       if (best == others.end() || !(best->score < beam.front().score - options_.worth)) return;
       beam = {*best};
@@ -107,13 +110,13 @@ class Rung {
     }
   }
 
-  /// Returns fits of the most likely swaps of a set whose score is `near` that of the set on these
-  /// data, or lower; of the empty set those of the most likely effects. Tried are those that are
+  /// Returns fits of the most likely swaps of a fitted set whose score is `near` that of the set,
+  /// or lower; of the empty set those of the most likely effects. Tried are those that are
   /// predicted to be near, and, since the prediction is linear, for each effect all of its family,
   /// and the best kRivalsOfOne others.
-  std::vector<ScoredFit> rivals(const Candidate& set) {
-    const ScoredFit base = fitted(set);
+  std::vector<ScoredFit> rivals(const ScoredFit& base) {
     if (!base.is_possible()) return {};
+    const Candidate& set = base.candidate;
     const bool is_empty = set.effects.empty();
     std::vector<Move> swaps = moves_from(base);
     std::map<std::size_t, std::size_t> fitted_for;
@@ -142,9 +145,7 @@ class Rung {
   Labels hopeless_beside(const ScoredFit& set) {
     if (!set.is_possible()) return {};
     Labels made;
-    for (const auto* effects : {&hypotheses_, &left_out_}) {
-      for (const Hypothesis& one : *effects) made.insert(one.label());
-    }
+    for (const Hypothesis& one : hypotheses_) made.insert(one.label());
     for (const Move& move : moves_from(set)) {
       if (move.added != nullptr && move.score < set.score + options_.hope) {
         made.erase(move.added->label());
@@ -161,23 +162,20 @@ class Rung {
   /// Takes up the effects that were left out, unless the best set of the beam leaves noise. Returns
   /// whether it did.
   bool take_left_out(const std::vector<ScoredFit>& beam) {
-    if (takes_all_ || leaves_noise(likelihood_, beam.front())) return false;
-    takes_all_ = true;
+    const std::size_t searched = searched_;
+    if (searched == hypotheses_.size() || leaves_noise(likelihood_, beam.front())) return false;
+    searched_ = hypotheses_.size();
+    expanded_.clear();
     for (const ScoredFit& set : beam) {
       const auto known = moves_.find(set.candidate.labels());
-      if (known != moves_.end()) add_moves(known->second, set, left_out_);
+      if (known == moves_.end()) continue;
+      std::vector<Move> more =
+          moves_of(likelihood_, set, std::span(hypotheses_).subspan(searched), work_);
+      std::erase_if(more, [](const Move& one) { return one.added == nullptr; });  // known
+      std::ranges::move(more, std::back_inserter(known->second));
+      std::ranges::stable_sort(known->second, {}, &Move::score);
     }
-    expanded_.clear();
     return true;
-  }
-
-  void add_moves(std::vector<Move>& moves, const ScoredFit& set,
-                 const std::vector<Hypothesis>& effects) const {
-    const bool has_drops = !moves.empty();
-    std::vector<Move> more = moves_of(likelihood_, set, effects, work_);
-    if (has_drops) std::erase_if(more, [](const Move& one) { return one.added == nullptr; });
-    std::ranges::move(more, std::back_inserter(moves));
-    std::ranges::stable_sort(moves, {}, &Move::score);
   }
 
   /// Keeps the fits of the lowest score, of `most` sets of effects and so many of one set.
@@ -199,13 +197,10 @@ class Rung {
   const std::vector<Move>& moves_from(const ScoredFit& set) {
     const auto [at, is_new] = moves_.try_emplace(set.candidate.labels());
     if (is_new) {
-      add_moves(at->second, set, hypotheses_);
-      if (takes_all_) add_moves(at->second, set, left_out_);
+      at->second = moves_of(likelihood_, set, std::span(hypotheses_).first(searched_), work_);
     }
     return at->second;
   }
-
-  ScoredFit fitted(const Candidate& start) const { return scored_fit(likelihood_, start, work_); }
 
   /// Returns the moves of `base` that are fitted: to sets that were not met before, and to smaller
   /// ones that were met at another minimum.
@@ -272,10 +267,9 @@ class Rung {
 
   const Likelihood& likelihood_;
   double least_time_s_;
-  SetSearchOptions options_;
-  std::vector<Hypothesis> hypotheses_;  ///< without those that are left out
-  std::vector<Hypothesis> left_out_;
-  bool takes_all_ = false;  ///< the moves are of those that are left out too
+  std::vector<Hypothesis> hypotheses_;  ///< those that are left out last; moves refer to them
+  std::size_t searched_ = 0;            ///< how many are not left out
+  const SetSearchOptions& options_;
   const ReportedWork& work_;
   Climb end_;
   std::map<Labels, double> met_;                 ///< the lowest score of each set that was fitted
@@ -298,15 +292,15 @@ void add_rivals(const Likelihood& likelihood, const Likelihood& part, bool excha
                 const ReportedWork& work, std::vector<ScoredFit>& beam) {
   Rung rung(part, hypotheses, options, work, Climb::exchanges);
   std::vector<ScoredFit> near;
-  Candidate best = beam.front().candidate;
   if (exchanges) {
     near = beam;
     rung.fit(near);
     rung.climb(near, options.beam, Looks::predicted);
-    best = near.front().candidate;
-    near.push_back(beam.front());
   }
-  std::ranges::move(rung.rivals(best), std::back_inserter(near));
+  std::vector<ScoredFit> rivals =
+      rung.rivals(exchanges ? near.front() : rung.fitted(beam.front().candidate));
+  if (exchanges) near.push_back(beam.front());
+  std::ranges::move(rivals, std::back_inserter(near));
   in_parallel(near.size(), [&](std::size_t i) {
     near[i] = scored_fit(likelihood, near[i].candidate, work, kLook);
   });
@@ -337,7 +331,7 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
   FoundSets made;
   std::vector<ScoredFit> beam;
   std::vector<Hypothesis> common = common_of(hypotheses);
-  std::set<std::string> hopeless;
+  Labels hopeless;
   bool has_climbed = false;
   // Returns whether one effect leaves noise: then no set imitates it with fewer numbers.
   const auto climb_afresh = [&](const Likelihood& part, const std::vector<Hypothesis>& effects,

@@ -324,8 +324,8 @@ TEST(DrivenByMotion, NamesTheBeamBesideFrictionOfTheHub) {
   EXPECT_NEAR(chosen.values_of(0).front(), 0.8, 0.01);
 }
 
-/// A structural damping of 0.00028 s is named beside it: the noise of the motion, which excites the
-/// simulated beam and not the arm, asks for damping.
+/// A structural damping of 0.00028 s is named beside it, with a loss of 24 on the validation runs.
+/// The noise of the motion excites the simulated beam and not the arm: that may ask for damping.
 TEST(DrivenByMotion, DISABLED_NamesTheBeamAloneBesideFrictionOfTheHub) {
   EXPECT_EQ(chosen_beside_hub_dirt().label(), "flexural_rigidity");
 }

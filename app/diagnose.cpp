@@ -48,6 +48,8 @@ constexpr const char* kDiagnosisJson = "diagnosis.json";
 constexpr const char* kExtendedArm = "extended.toml";
 /// Rows of tables that come behind the answer.
 constexpr std::size_t kFewRows = 4;
+/// Rows of the table of regimes.
+constexpr std::size_t kRegimeRows = 5;
 /// Lines of findings.
 constexpr std::size_t kFindingLines = 14;
 
@@ -129,9 +131,9 @@ std::string restrictions_text(const diagnose::Diagnosis& diagnosis) {
   return text.empty() ? text : text + "\n";
 }
 
-/// The residual analysis where effects do not explain the residuals, else for `--verbose`.
-bool shows_residuals(const diagnose::Diagnosis& diagnosis, bool verbose) {
-  return verbose || diagnosis.verdict == diagnose::Verdict::partly_explained ||
+/// Whether effects do not explain the residuals.
+bool is_open(const diagnose::Diagnosis& diagnosis) {
+  return diagnosis.verdict == diagnose::Verdict::partly_explained ||
          diagnosis.verdict == diagnose::Verdict::unexplained;
 }
 
@@ -153,11 +155,15 @@ std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
   if (verbose) text += evidence_text(diagnosis);
   const std::string predictor = report::predictor_text(diagnosis);
   if (!predictor.empty()) text += screen_paragraph(predictor) + "\n";
-  if (shows_residuals(diagnosis, verbose)) {
+  if (verbose || is_open(diagnosis)) {
     const std::string wrong =
         report::what_is_wrong_text(diagnosis.symptoms, verbose ? kAllRows : kFindingLines,
                                    std::min(screen_width(), report::kWidestText));
     if (!wrong.empty()) text += wrong + "\n";
+  }
+  if (is_open(diagnosis)) {
+    text += screen_rows(report::where_it_fails_table(diagnosis.symptoms),
+                        verbose ? kAllRows : kRegimeRows, "--verbose", 4);
   }
   text +=
       screen_rows(report::near_miss_table(diagnosis), verbose ? kAllRows : kFewRows, "--verbose");
@@ -199,6 +205,7 @@ std::vector<measured::NamedContent> files_of(const diagnose::Diagnosis& diagnosi
   add_table("evidence.csv", report::loss_table(diagnosis));
   add_table("symptoms.csv", report::symptom_table(symptoms));
   add_table("bands.csv", report::band_table(symptoms));
+  add_table("regimes.csv", report::regime_table(symptoms));
   add_table("roots.csv", report::root_shift_table(symptoms));
   add_table("hub-torque.csv", report::hub_torque_table(symptoms));
   add_table("distortion.csv", report::distortion_table(symptoms));

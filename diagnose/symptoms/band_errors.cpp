@@ -44,6 +44,7 @@ void put_powers(BandError& error, const ObservedChannel& channel, double before,
   error.after = channel.floor() * std::sqrt(after);
   error.noise = channel.floor() * std::sqrt(noise_power);
   error.power_ratio = before / noise_power;
+  error.power_ratio_after = after / noise_power;
   error.probability = noise_probability(error.power_ratio, error.freedom);
 }
 

@@ -28,6 +28,7 @@ struct BandError {
   /// it is the mean of.
   double power_ratio = 0.0;
   double freedom = 0.0;
+  double power_ratio_after = 0.0;  ///< the power ratio after
   /// That noise alone has this power, or more (F test; the noise is known to `kNoiseKnown`).
   double probability = 1.0;
 };

@@ -19,6 +19,7 @@ Symptoms symptoms_of(const SymptomsInput& input, std::optional<RunDrift> drift,
       [&] {
         made.bands = band_errors(input);
         add(error_symptoms(input, made.bands));
+        made.regimes = regime_errors(input, made.bands);
       },
       [&] {
         // The torque is no input of an arm that is driven by motion.

@@ -4,6 +4,7 @@
 #include "diagnose/search/run_drift.hpp"
 #include "diagnose/symptoms/band_errors.hpp"
 #include "diagnose/symptoms/hub_torque.hpp"
+#include "diagnose/symptoms/regimes.hpp"
 #include "diagnose/symptoms/root_shifts.hpp"
 #include "diagnose/symptoms/run_distortion.hpp"
 
@@ -16,6 +17,7 @@ namespace flexarm::diagnose {
 struct Symptoms {
   std::vector<Symptom> statements;  ///< the significant ones first
   std::vector<BandError> bands;
+  std::vector<RegimeError> regimes;
   std::vector<RootShift> roots;
   HubTorque hub_torque;
   std::vector<RunDistortion> distortion;

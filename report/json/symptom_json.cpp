@@ -63,6 +63,26 @@ Json bands_json(const diagnose::Symptoms& symptoms) {
   return all;
 }
 
+Json regimes_json(const diagnose::Symptoms& symptoms) {
+  Json all = Json::array();
+  for (const auto& regime : symptoms.regimes) {
+    all.push_back({{"quantity", to_string(regime.quantity)},
+                   {"from", regime.from},
+                   {"to", regime.to},
+                   {"unit", unit_of(regime.quantity)},
+                   {"share", regime.share},
+                   {"before", regime.before},
+                   {"after", regime.after},
+                   {"noise_floor", regime.noise_floor},
+                   {"ratio", regime.ratio},
+                   {"innovation_ratio",
+                    regime.innovation_ratio ? Json(*regime.innovation_ratio) : Json(nullptr)},
+                   {"p_value", regime.p_value},
+                   {"significant", regime.is_significant()}});
+  }
+  return all;
+}
+
 Json root_shifts_json(const diagnose::Symptoms& symptoms) {
   Json all = Json::array();
   for (const auto& shift : symptoms.roots) {

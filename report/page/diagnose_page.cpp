@@ -224,6 +224,13 @@ std::string test_text(const char* runs, const diagnose::ResidualTest& test,
 Section residuals_section(const Experiment& experiment, const Diagnosis& diagnosis,
                           const std::vector<DiagnosedChannel>& channels) {
   Section section{"residuals", "Residuals"};
+  if (!diagnosis.symptoms.regimes.empty()) {
+    section.text.push_back(
+        "The error by regime is relative to the whole signal of each channel. Its ratios compare "
+        "mean squares of the residual, and of its innovations, with those outside of the regime: "
+        "the first shows where the error is large, the second where it arises.");
+    add_errors(section, regime_table(diagnosis.symptoms), "error-by-regime", diagnosis);
+  }
   if (channels.empty()) return section;
   section.text.push_back(test_text("estimation", diagnosis.estimation_test, diagnosis));
   if (diagnosis.validation) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace flexarm::report {
@@ -26,6 +27,28 @@ Cell number(const std::optional<double>& value) {
 
 std::string yes(bool value) {
   return value ? "yes" : "no";
+}
+
+Table table_of_regimes(const std::vector<diagnose::RegimeError>& regimes, std::string caption) {
+  Table table{std::move(caption),
+              {{.name = "quantity"},
+               {.name = "from", .significant_digits = 3},
+               {.name = "to", .significant_digits = 3},
+               {.name = "unit"},
+               {.name = "share", .unit = "%", .significant_digits = 2},
+               {.name = "arm file", .unit = "%", .significant_digits = 3},
+               {.name = "extended arm", .unit = "%", .significant_digits = 3},
+               {.name = "noise floor", .unit = "%", .significant_digits = 2},
+               {.name = "ratio", .significant_digits = 2},
+               {.name = "innovation ratio", .significant_digits = 2},
+               probability_column()}};
+  for (const auto& regime : regimes) {
+    table.add_row({std::string(to_string(regime.quantity)), regime.from, regime.to,
+                   std::string(unit_of(regime.quantity)), 100.0 * regime.share,
+                   100.0 * regime.before, 100.0 * regime.after, 100.0 * regime.noise_floor,
+                   regime.ratio, number(regime.innovation_ratio), regime.p_value});
+  }
+  return table;
 }
 
 /// The first of each kind, then the others, errors last: those of further sensors say little more.
@@ -102,6 +125,20 @@ Table band_table(const Symptoms& symptoms) {
                    error.probability});
   }
   return table;
+}
+
+Table regime_table(const Symptoms& symptoms) {
+  return table_of_regimes(symptoms.regimes, "Error by regime");
+}
+
+Table where_it_fails_table(const Symptoms& symptoms) {
+  std::vector<diagnose::RegimeError> regimes = symptoms.regimes;
+  std::ranges::stable_sort(regimes, [](const auto& one, const auto& other) {
+    return std::pair(one.is_significant(), one.excess_share()) >
+           std::pair(other.is_significant(), other.excess_share());
+  });
+  return table_of_regimes(regimes,
+                          "Where it fails: error by regime, significant with a p-value below 0.01");
 }
 
 Table root_shift_table(const Symptoms& symptoms) {

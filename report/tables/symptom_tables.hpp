@@ -19,6 +19,10 @@ std::string what_is_wrong_text(const diagnose::Symptoms& symptoms, std::size_t m
 Table symptom_table(const diagnose::Symptoms& symptoms);
 /// The error by run, sensor and band, per cent of the signal.
 Table band_table(const diagnose::Symptoms& symptoms);
+/// The error by regime, by quantity and ascending.
+Table regime_table(const diagnose::Symptoms& symptoms);
+/// The same, the significant regimes first, those with most of the excess residual before others.
+Table where_it_fails_table(const diagnose::Symptoms& symptoms);
 /// Poles and zeros, measured and simulated.
 Table root_shift_table(const diagnose::Symptoms& symptoms);
 /// What the residual torque at the hub was tested for.

@@ -74,6 +74,19 @@ TEST(GradedVerdictText, HasCausesWithValuesAndGradesAndWhatIsLeft) {
   EXPECT_EQ(std::get<std::string>(table.rows[0][1]), "supported");
 }
 
+TEST(GradedVerdictText, NamesTheFamilyWhereItsEffectsAloneAreTied) {
+  Diagnosis made = with_gain(Verdict::partly_explained);
+  made.causes = {cause("coulomb_friction", 0.6)};
+  made.causes[0].confusable_with = {"torque_dead_zone"};
+  made.causes[0].parameters = {{.name = "torque", .value = 0.021, .unit = "N m"}};
+  made.causes[0].family = "dry friction of the hub";
+  made.causes[0].names_family = true;
+  made.causes[0].figures = diagnose::EffectEvidence{};
+  EXPECT_THAT(verdict_text(made),
+              StartsWith("Partly explained: dry friction of the hub: "
+                         "coulomb_friction 0.021 N m, or torque_dead_zone (candidate)"));
+}
+
 TEST(VerdictText, TellsTheNumericalErrorFromNoise) {
   Diagnosis made = with_gain(Verdict::adequate);
   EXPECT_THAT(verdict_text(made), StartsWith("Adequate: the residuals are noise."));

@@ -5,6 +5,7 @@
 #include "report/figures/overlay_figure.hpp"
 #include "report/figures/svg.hpp"
 #include "report/json/diagnosis_json.hpp"
+#include "report/tables/text_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,6 +57,60 @@ TEST(SymptomTable, HasAllStatements) {
   ASSERT_EQ(table.rows.size(), 6U);
   EXPECT_EQ(std::get<std::string>(table.rows.front()[1]), "yes");
   EXPECT_EQ(std::get<std::string>(table.rows.back()[1]), "no");
+}
+
+/// Bands of frequency, one of which holds most of the residual, and torques.
+diagnose::Symptoms with_regimes() {
+  using diagnose::RegimeQuantity;
+  diagnose::Symptoms symptoms;
+  const auto add = [&](RegimeQuantity quantity, double from, double to, double ratio,
+                       std::optional<double> innovation_ratio, double p_value) {
+    symptoms.regimes.push_back({.quantity = quantity,
+                                .from = from,
+                                .to = to,
+                                .share = 0.25,
+                                .before = 1.234,
+                                .after = 0.1234,
+                                .noise_floor = 0.01234,
+                                .ratio = ratio,
+                                .innovation_ratio = innovation_ratio,
+                                .p_value = p_value});
+  };
+  add(RegimeQuantity::frequency, 0.0, 8.4, 0.5, std::nullopt, 1.0);
+  add(RegimeQuantity::frequency, 8.4, 43.5, 12.0, std::nullopt, 1.2e-34);
+  add(RegimeQuantity::torque, 0.00123, 0.0456, 3.0, 0.5, 0.3);
+  add(RegimeQuantity::torque, 0.0456, 0.123, 0.9, 2.0, 0.0012);
+  add(RegimeQuantity::hub_velocity, 0.0000163, 10.1, 0.9, 0.8, 1.0);
+  return symptoms;
+}
+
+TEST(RegimeTable, HasAllByQuantity) {
+  const Table table = regime_table(with_regimes());
+  ASSERT_EQ(table.rows.size(), 5U);
+  EXPECT_EQ(std::get<std::string>(table.rows[0][0]), "frequency");
+  EXPECT_EQ(std::get<std::string>(table.rows[3][3]), "N m");
+  EXPECT_TRUE(is_missing(table.rows[0][9]));
+}
+
+TEST(WhereItFailsTable, HasTheSignificantRegimesFirstAndFitsATerminal) {
+  const Table table = where_it_fails_table(with_regimes());
+  std::vector<double> from;
+  for (const auto& row : table.rows) from.push_back(std::get<double>(row[1]));
+  EXPECT_THAT(from, testing::ElementsAre(8.4, 0.0456, 0.00123, 0.0, 0.0000163));
+  const std::string text = to_text(table, {.max_width = kPipeWidth, .key_columns = 4});
+  EXPECT_EQ(text.find("hub_velocity"), text.rfind("hub_velocity")) << text;  // in one block
+}
+
+TEST(DiagnosisJson, HasTheRegimes) {
+  diagnose::Diagnosis diagnosis;
+  diagnosis.symptoms = with_regimes();
+  const auto regimes = diagnosis_json(diagnosis, "")["residual"]["regimes"];
+  ASSERT_EQ(regimes.size(), 5U);
+  EXPECT_TRUE(regimes[1]["innovation_ratio"].is_null());
+  EXPECT_EQ(regimes[3]["innovation_ratio"], 2.0);
+  EXPECT_EQ(regimes[3]["unit"], "N m");
+  EXPECT_EQ(regimes[3]["significant"], true);
+  EXPECT_EQ(regimes[2]["significant"], false);
 }
 
 TEST(DiagnosisJson, HasTheStatementsBesideWhatWasThereBefore) {

@@ -19,10 +19,11 @@ Entry gravity() {
                    }}),
           .shows = Shows::in_all,
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-            constexpr double g = 9.81;  // m/s^2
+            // That of the earth, hanging or upright, and a tenth for masses that are off.
+            constexpr double kMost_m_per_s2 = 1.1 * 9.81;
             return {{.name = "acceleration",
-                     .lowest = -3.0 * g,
-                     .highest = 3.0 * g,
+                     .lowest = -kMost_m_per_s2,
+                     .highest = kMost_m_per_s2,
                      .spacing = Spacing::linear,
                      .neutral = 0.0}};
           },

@@ -1,5 +1,6 @@
 #include "effects/registry/entry.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace flexarm::effects {
@@ -24,11 +25,14 @@ Entry torque_saturation() {
                           }}),
           .shows = Shows::in_time,
           .search = [](const Scales& scales) -> std::vector<SearchedParameter> {
+            // A limit below nearly all of the torque would be a gain.
             return {{.name = "limit",
-                     .lowest = 0.03 * scales.torque_peak_N_m,
+                     .lowest = std::max(0.03 * scales.torque_peak_N_m, scales.torque_low_N_m),
                      .highest = scales.torque_peak_N_m,
                      .neutral = scales.torque_peak_N_m}};
           },
+          .applies =
+              [](const Scales& scales) { return scales.torque_low_N_m < scales.torque_peak_N_m; },
           .family = Family::torque_scale,
           .speaks_for = "excess residual only where the torque magnitude is large",
           .refuted_by = "excess residual at low torque"};

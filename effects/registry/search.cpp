@@ -38,6 +38,14 @@ struct SinhRange {
 
 }  // namespace
 
+double low_torque_N_m(std::vector<double> sizes_N_m) {
+  std::erase(sizes_N_m, 0.0);
+  if (sizes_N_m.empty()) return 0.0;
+  const auto tenth = sizes_N_m.begin() + std::ssize(sizes_N_m) / 10;
+  std::ranges::nth_element(sizes_N_m, tenth);
+  return *tenth;
+}
+
 double SearchedParameter::value(double coordinate) const {
   switch (spacing) {
     case Spacing::linear:

@@ -27,9 +27,11 @@ struct Scales {
   bool has_payload_mass = false;  ///< in some run
   double torque_rms_N_m = 0.0;    ///< of all `time` runs; 0 where there are none
   double torque_peak_N_m = 0.0;
+  double torque_low_N_m = 0.0;       ///< one in ten torques that are not 0 is smaller
   double hub_angle_range_rad = 0.0;  ///< largest of a `time` run; 0 where none shows it
-  double speed_rms_rad_per_s = 1.0;  ///< of a rigid arm that this torque turns
-  double shortest_time_s = 1e-3;     ///< half a sampling period, or 1/(20 highest frequency)
+  /// Of the hub as it was measured, else of a rigid arm that this torque turns.
+  double speed_rms_rad_per_s = 1.0;
+  double shortest_time_s = 1e-3;  ///< half a sampling period, or 1/(20 highest frequency)
 
   /// EI/l [N m/rad].
   double bending_stiffness_N_m_per_rad() const {
@@ -41,6 +43,9 @@ struct Scales {
   /// m l [kg].
   double beam_mass_kg() const { return beam.linear_density_kg_per_m * beam.length_m; }
 };
+
+/// Returns Scales::torque_low_N_m of these sizes of torques.
+double low_torque_N_m(std::vector<double> sizes_N_m);
 
 enum class Spacing {
   linear,

@@ -65,12 +65,12 @@ void expect_energy(const response::Simulation& made, Potential potential_J) {
   EXPECT_GT(std::abs(made.channels[0].back()), 0.1) << "it has moved";
 }
 
-TEST(LoadFriction, TakesItsPartOfTheTorqueThatDrives) {
-  // Far above its velocity: the work of the torque, less a part of it, goes into motion.
+TEST(LoadFriction, TakesItsPartOfTheLoadThatIsDriven) {
+  // Far above its velocity: the work of the load goes into motion.
   constexpr double kFactor = 0.3;
   expect_energy(rigid_hub("load_friction", {{"factor", kFactor}, {"velocity", 1e-6}},
                           steady_torque(kHubTorque)),
-                [](double angle) { return kFactor * kHubTorque * angle; });
+                [](double angle) { return kFactor / (1.0 + kFactor) * kHubTorque * angle; });
 }
 
 TEST(LoadFriction, HelpsATorqueThatBrakes) {
@@ -80,8 +80,8 @@ TEST(LoadFriction, HelpsATorqueThatBrakes) {
   const auto made = rigid_hub("load_friction", {{"factor", kFactor}, {"velocity", 1e-6}}, torque);
   const auto& speed = made.channels[1];
   const double per_sample = kHubTorque / kHubInertia * kHubSample_s;
-  EXPECT_NEAR(speed[150] - speed[149], (1.0 - kFactor) * per_sample, kLawOrderFour);
-  EXPECT_NEAR(speed[251] - speed[250], -(1.0 + kFactor) * per_sample, kLawOrderFour);
+  EXPECT_NEAR(speed[150] - speed[149], per_sample / (1.0 + kFactor), kLawOrderFour);
+  EXPECT_NEAR(speed[251] - speed[250], -per_sample / (1.0 - kFactor), kLawOrderFour);
 }
 
 TEST(HubHardeningSpring, StoresTheFourthPowerOfTheAngle) {

@@ -5,7 +5,7 @@ namespace flexarm::trials {
 /// The arm hangs; sizes are those of the earth's.
 Cause gravity() {
   return {.name = "gravity",
-          .largest = 2.0,
+          .largest = 1.0,
           .parameters = [](const NaturalSizes& /*natural*/, double size,
                            const Chance& /*chance*/) -> Parameters {
             return {{"acceleration", size * 9.81}};

@@ -17,6 +17,12 @@ class Output(unittest.TestCase):
         self.assertIsNone(first_difference(["pole 11.86 Hz"], ["pole   11.8618 Hz"]))
         self.assertIsNotNone(first_difference(["pole 11.86 Hz"], ["pole 11.89 Hz"]))
 
+    def test_agrees_to_one_of_the_last_of_three_digits(self):
+        self.assertIsNone(first_difference(["0.675 of it"], ["0.674 of it"]))
+        self.assertIsNone(first_difference(["2.94e-06"], ["2.93e-06"]))
+        self.assertIsNotNone(first_difference(["0.675 of it"], ["0.673 of it"]))
+        self.assertIsNotNone(first_difference(["12 runs"], ["13 runs"]))
+
     def test_words_must_be_the_same(self):
         self.assertIsNotNone(first_difference(["explained by coulomb_friction"], ["explained by backlash"]))
         self.assertIsNotNone(first_difference(["a", "b"], ["a"]))

@@ -61,7 +61,7 @@ std::vector<measured::NamedContent> identified_files(
     add(name, measured::format_modal_table(table));
   }
   for (const auto& run : identification.runs) {
-    if (!run.estimate || run.hub_held()) continue;
+    if (!run.estimate) continue;
     add(fmt::format("frf-{}.csv", run.run.id), measured::format_frequency_record(run.response));
   }
   const auto figures = report::identification_plots(identification, conditions);

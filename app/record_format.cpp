@@ -43,6 +43,11 @@ void write_record(const measured::RunData& data, const std::filesystem::path& pa
     measured::write_atomically(path, measured::format_run_data(data));
     return;
   }
+  const auto* frequency = std::get_if<measured::FrequencyRecord>(&data);
+  if (frequency != nullptr && frequency->input) {
+    throw arm::InputError(fmt::format("--save-as: responses to {} are written as CSV only",
+                                      arm::to_string(*frequency->input)));
+  }
   const auto write = [&](const auto& record) {
     if (format == RecordFormat::mat) {
       measured::write_mat_file(measured::mat_variables(record), path);
@@ -53,7 +58,7 @@ void write_record(const measured::RunData& data, const std::filesystem::path& pa
   };
   if (const auto* time = std::get_if<measured::TimeRecord>(&data)) {
     write(*time);
-  } else if (const auto* frequency = std::get_if<measured::FrequencyRecord>(&data)) {
+  } else if (frequency != nullptr) {
     write(*frequency);
   } else {
     throw arm::InputError("--save-as: a modal table is written as CSV only");

@@ -52,6 +52,9 @@ effects::Scales scales_of(const arm::Arm& arm, std::span<const double> torque_N_
   }
   const auto samples = static_cast<double>(torque_N_m.size());
   scales.torque_rms_N_m = std::sqrt(squares / samples);
+  std::vector<double> sizes_N_m;
+  for (const double torque : torque_N_m) sizes_N_m.push_back(std::abs(torque));
+  scales.torque_low_N_m = effects::low_torque_N_m(std::move(sizes_N_m));
   scales.speed_rms_rad_per_s = std::sqrt(speed_squares / samples);
   return scales;
 }

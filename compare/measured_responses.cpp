@@ -6,9 +6,9 @@
 #include "response/settings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -81,6 +81,7 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
   for (const auto& channel : record.channels) {
     MeasuredResponse each;
     each.run = run;
+    each.input = record.input;
     each.measured = coherent_lines(channel);
     each.left_out = channel.frequency_Hz.size() - each.measured.frequency_Hz.size();
     each.curve_frequency_Hz = curve_frequencies_Hz(each.measured);
@@ -90,17 +91,24 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
   const int roots = std::min(response::roots_needed(parts.linear, range), response::kMostRoots);
   for (const auto& subject : standard_subjects(parts.linear, roots)) {
     for (auto& each : compared) {
-      const std::array sensors = {each.measured.sensor};
-      auto response = response::frequency_response(subject.formulation, chain, sensors,
-                                                   each.measured.frequency_Hz);
-      add_errors(response.values.front(), each);
+      std::vector<arm::Sensor> sensors = {each.measured.sensor};
+      if (record.input) sensors.push_back(*record.input);
+      const auto response_at = [&](const std::vector<double>& frequency_Hz) {
+        auto made =
+            response::frequency_response(subject.formulation, chain, sensors, frequency_Hz).values;
+        if (record.input) {
+          // Both per torque: the ratio is that to the input.
+          std::ranges::transform(made.front(), made.back(), made.front().begin(), std::divides());
+        }
+        return std::move(made.front());
+      };
+      auto response = response_at(each.measured.frequency_Hz);
+      add_errors(response, each);
       if (!each.curve_frequency_Hz.empty()) {
-        each.curves.push_back(response::frequency_response(subject.formulation, chain, sensors,
-                                                           each.curve_frequency_Hz)
-                                  .values.front());
+        each.curves.push_back(response_at(each.curve_frequency_Hz));
       }
       each.models.push_back(subject.name);
-      each.values.push_back(std::move(response.values.front()));
+      each.values.push_back(std::move(response));
     }
   }
   return compared;

@@ -30,6 +30,7 @@ struct MeasuredResponse {
   /// logarithmic axis, and the measured ones. Empty where there is no range.
   std::vector<double> curve_frequency_Hz = {};
   std::vector<std::vector<std::complex<double>>> curves = {};  ///< [model][frequency]
+  std::optional<arm::Sensor> input = {};                       ///< measured::FrequencyRecord::input
   std::size_t left_out = 0;                                    ///< lines
 };
 

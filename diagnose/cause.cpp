@@ -84,22 +84,22 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   const auto add = [&confusable](const std::string& name) {
     if (std::ranges::find(confusable, name) == confusable.end()) confusable.push_back(name);
   };
+  std::size_t of_family = 0;
+  std::size_t of_others = 0;
   for (const Rival& rival : rivals) {
     if (rival.odds > kIndistinguishableOdds) break;
+    ++(rival.effect->entry->family == effect.entry->family ? of_family : of_others);
     // Of the same effect it is another sensor.
     add(rival.effect->effect == effect.effect ? rival.effect->label() : rival.effect->effect);
     std::ranges::for_each(rival.effect->other_names, add);
   }
   cause.family = to_string(effect.entry->family);
+  cause.names_family = of_family > 0 && of_others == 0;
   if (!selection.evidence.empty()) {
     cause.figures = selection.evidence[index];
-    const bool has_rival = std::ranges::any_of(rivals, [&](const Rival& rival) {
-      return rival.odds <= kIndistinguishableOdds &&
-             rival.effect->entry->family != effect.entry->family;
-    });
     cause.grade = cause.is_at_end_of_range
                       ? Grade::candidate
-                      : grade_of(*cause.figures, has_rival, selection.chosen.leaves_noise());
+                      : grade_of(*cause.figures, of_others > 0, selection.chosen.leaves_noise());
   }
   cause.evidence =
       evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);

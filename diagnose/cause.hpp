@@ -41,6 +41,9 @@ struct Cause {
   /// The same of this effect or one of `confusable_with` in its place.
   double class_confidence = 0.0;
   std::string family;  ///< of effects, in words
+  /// Whether effects of its family, and no others, do about as well: the data determine the family
+  /// and not which of its effects acts.
+  bool names_family = false;
   /// The evidence and its grade; none where the time limit left no time for it.
   std::optional<EffectEvidence> figures = {};
   Grade grade = Grade::candidate;

@@ -14,6 +14,9 @@ namespace flexarm::diagnose {
 
 namespace {
 
+/// Error that the motion adds to a signal, over it, above which a simulation by it tells little.
+constexpr double kUselessMotion = 0.5;
+
 bool is_of_hub(const measured::Channel& channel) {
   return arm::is_collocated(channel.sensor);
 }
@@ -87,11 +90,17 @@ std::string motion_notice(const Experiment& experiment, const Observations& obse
   const auto noisiest = std::ranges::max_element(experiment.motions, {}, &MeasuredMotion::noise);
   const auto most =
       std::ranges::max_element(observations.channels, {}, &ObservedChannel::numerical_error);
-  return fmt::format(
+  std::string notice = fmt::format(
       "the measured motion of the hub drives the beam: {}, with noise of up to {:.2g} {}, is "
       "smoothed; its error adds up to {:.2g} % of the signal to the noise ({} of run {})",
       arm::to_string(noisiest->sensor), noisiest->noise, arm::unit(noisiest->sensor),
       100.0 * most->numerical_error, most->sensor, experiment.runs[most->run].run.id);
+  if (most->numerical_error > kUselessMotion) {
+    notice +=
+        "; responses average that noise: flexarm identify --input hub_angle writes them, and "
+        "flexarm import reads them as a measurement";
+  }
+  return notice;
 }
 
 }  // namespace flexarm::diagnose

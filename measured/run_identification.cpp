@@ -148,7 +148,7 @@ void study_frequency_run(FrequencyRecord record, const IdentificationOptions& op
     }
     made.features.push_back(std::move(features));
   }
-  read_circles(made, options.circles);
+  if (!made.hub_held()) read_circles(made, options.circles);
 }
 
 /// With the hub held: zeros are those of the sensors all the same, poles are zeros of the hub
@@ -284,7 +284,7 @@ void fit(RunsFit& fitted, std::vector<MeasuredRun>& runs,
   if (fitted.of_responses) {
     fitted.fit = fit_responses(*studied[fitted.runs.front()].estimate, own);
   } else if (const auto* record = std::get_if<FrequencyRecord>(&first.data)) {
-    fitted.fit = fit_modes(*record, own);
+    fitted.fit = fit_responses(*record, own);
   } else {
     std::vector<TimeRecord> records;
     for (const std::size_t r : fitted.runs) {

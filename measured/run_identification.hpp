@@ -72,9 +72,7 @@ struct RunIdentification {
 
   /// Whether poles are those with the hub held: of responses to its motion, and of a decay while it
   /// rests.
-  bool hub_held() const {
-    return hub_at_rest || (estimate && estimate->settings.estimator.hub_held());
-  }
+  bool hub_held() const { return hub_at_rest || response.input.has_value(); }
 };
 
 /// A rational fit of runs with one payload, torque hold and sampling period, of one `frf` run, or

@@ -135,6 +135,17 @@ void add_estimates(py::module_& module) {
           "Of the excess residual without it, 0 to 1.")
       .def_readonly("confusable_with", &Cause::confusable_with,
                     "Effects that these data do not distinguish from it, a list.")
+      .def_property_readonly(
+          "grade",
+          [](const Cause& self) -> std::optional<std::string> {
+            if (!self.figures) return std::nullopt;
+            return std::string(to_string(self.grade));
+          },
+          "'established', 'supported' or 'candidate'; None where a time limit left no time for it.")
+      .def_readonly("family", &Cause::family, "Of effects that act at one place, in words.")
+      .def_readonly("names_family", &Cause::names_family,
+                    "Whether all of `confusable_with` are of the family: the data determine it and "
+                    "not which of its effects acts.")
       .def_readonly("evidence", &Cause::evidence, "Sentences, a list.")
       .def_readonly("evidence_against", &Cause::refuted_by, "What would speak against it.")
       .def("__repr__", &cause_text);

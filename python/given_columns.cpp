@@ -27,7 +27,6 @@ namespace {
 
 using arm::InputError;
 
-constexpr std::string_view kPerTorque = "_per_N_m";
 constexpr std::string_view kCoherence = "_coherence";
 
 template <class T>
@@ -215,8 +214,12 @@ measured::TimeRecord time_record_of(const std::vector<GivenColumn>& columns,
   return record;
 }
 
-measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& columns) {
+measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& columns,
+                                              const std::string& input) {
   measured::FrequencyRecord record;
+  record.input = measured::parse_response_input(input);
+  const std::string per =
+      fmt::format("_per_{}", record.input ? unit_in_name(arm::unit(*record.input)) : "N_m");
   std::vector<double> frequency_Hz;
   for (const auto& column : columns) {
     if (column.name == "frequency_Hz") {
@@ -224,21 +227,23 @@ measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& co
     } else if (column.name.ends_with(kCoherence)) {
       const std::string sensor = column.name.substr(0, column.name.size() - kCoherence.size());
       channel_of(record, arm::parse_sensor(sensor)).coherence = values_of<double>(column);
-    } else if (column.name.ends_with(kPerTorque)) {
-      const std::string name_of_unit =
-          column.name.substr(0, column.name.size() - kPerTorque.size());
-      const Named name = named(column, name_of_unit, kPerTorque);
+    } else if (column.name.ends_with(per)) {
+      const std::string name_of_unit = column.name.substr(0, column.name.size() - per.size());
+      const Named name = named(column, name_of_unit, per);
       const auto sensor = measured::sensor_of(name.quantity);
-      if (!sensor)
-        throw InputError(column.name + ": must be a sensor's, as in hub_angle_rad_per_N_m");
+      if (!sensor) {
+        throw InputError(
+            fmt::format("{}: must be a sensor's, as in tip_displacement_m{}", column.name, per));
+      }
       auto& channel = channel_of(record, *sensor);
       channel.response = values_of<std::complex<double>>(column);
       const double scale = measured::conversion_of(name.quantity, name.unit).value_or(1.0);
       for (auto& value : channel.response) value *= scale;
     } else {
-      throw InputError(fmt::format(
-          "{}: must be frequency_Hz, a response as hub_angle_rad_per_N_m, or hub_angle_coherence",
-          column.name));
+      throw InputError(
+          fmt::format("{}: must be frequency_Hz, a response as tip_displacement_m{}, or "
+                      "tip_displacement_coherence",
+                      column.name, per));
     }
   }
   if (frequency_Hz.empty()) throw InputError("frequency_Hz: missing");

@@ -30,8 +30,10 @@ measured::TimeRecord time_record_of(const std::vector<GivenColumn>& columns,
                                     const pybind11::object& sample_time_s);
 
 /// Frequency responses of columns: frequency_Hz, complex responses as hub_angle_rad_per_N_m, and
-/// hub_angle_coherence. Throws arm::InputError as `time_record_of`.
-measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& columns);
+/// hub_angle_coherence. `input` is "torque", or "hub_angle" or "hub_velocity", which the responses
+/// are named per: tip_displacement_m_per_rad. Throws arm::InputError as `time_record_of`.
+measured::FrequencyRecord frequency_record_of(const std::vector<GivenColumn>& columns,
+                                              const std::string& input);
 
 /// "time_s=None, torque_N_m=None, hub_angle_rad=None, ...": the columns of a record as keywords of
 /// a signature, in SI units; `per` is "_per_N_m" for responses.

@@ -99,10 +99,11 @@ TimeRun time_run(const py::object& data, const py::object& id, const py::object&
 
 FrequencyRun frequency_run(const py::object& data, const py::object& id, const py::object& purpose,
                            const py::object& payload_mass_kg,
-                           const py::object& payload_inertia_kg_m2, const py::kwargs& columns) {
+                           const py::object& payload_inertia_kg_m2, const std::string& input,
+                           const py::kwargs& columns) {
   FrequencyRun made{
       run_of(measured::RunKind::frf, {id, purpose, payload_mass_kg, payload_inertia_kg_m2}),
-      frequency_record_of(columns_of(data, columns))};
+      frequency_record_of(columns_of(data, columns), input)};
   measured::require_valid(made.run, made.record);
   return made;
 }
@@ -256,25 +257,30 @@ void add_time_run(py::module_& module) {
 void add_frequency_run(py::module_& module) {
   const std::string text =
       "Measured frequency responses. run['hub_angle'] is the response of a sensor, read-only "
-      "complex array (frequencies,) in its unit per N m.\n\nArguments:\n"
+      "complex array (frequencies,) in its unit per N m, or per unit of the input.\n\nArguments:\n"
       "  data: a dict or DataFrame of columns, or None; an index that has a name is one\n"
       "  **columns: arrays (frequencies,): frequency_Hz, ascending; complex responses to the "
       "torque, named by sensor and unit, hub_angle_rad_per_N_m or "
       "tip_acceleration_m_per_s2_per_N_m; their coherence, hub_angle_coherence [1]\n" +
       std::string(kRunArguments) +
+      "  input: 'torque'; 'hub_angle' or 'hub_velocity' of responses to the motion of the hub, "
+      "which are named tip_displacement_m_per_rad or tip_displacement_m_per_rad_per_s\n"
       "\nRaises InputError for a name or unit that is none, and numbers that cannot be.";
   auto frequency = py::class_<FrequencyRun>(module, "FrequencyRun", text.c_str());
   add_run_facts(frequency)
       .def(py::init(&frequency_run), py::arg("data") = py::none(), py::kw_only(),
            py::arg("id") = "run", py::arg("purpose") = "", py::arg("payload_mass_kg") = py::none(),
-           py::arg("payload_inertia_kg_m2") = py::none(),
+           py::arg("payload_inertia_kg_m2") = py::none(), py::arg("input") = "torque",
            ("frequency_Hz=None, " + column_keywords("_per_N_m") + "\n--\n\n").c_str())
       .def_property_readonly(
           "sensors", [](const FrequencyRun& self) { return names_of(sensors_in(self.record)); },
           "Names of the sensors.")
       .def_property_readonly(
           "units", [](const FrequencyRun& self) { return units_of(sensors_in(self.record)); },
-          "Their units; responses are in these per N m.")
+          "Their units; responses are in these per N m, or per unit of the input.")
+      .def_property_readonly(
+          "input", [](const FrequencyRun& self) { return measured::name_of_input(self.record); },
+          "'torque', 'hub_angle' or 'hub_velocity'.")
       .def("__getitem__", of_channel(&measured::FrequencyChannel::response))
       .def("frequency_Hz", of_channel(&measured::FrequencyChannel::frequency_Hz), py::arg("sensor"),
            "f of a sensor's response [Hz], read-only array (frequencies,).\n\nArguments:\n"

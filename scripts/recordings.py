@@ -462,4 +462,52 @@ angle = 0.0
     goals=[Goal("hub angle of the validation run below 13 %",
                 validation_error("servo", (SERVO_LOGS[2],), "hub_angle", 0.13))])
 
-RECORDINGS = [EMPS, ROTARY, RULER, RIG, STEPS, ROBOT, SERVO]
+# swept-ruler: theta in 1024 counts a turn, acceleration in 1.56 counts per m/s^2 by the makers'
+# fit. The torque of the motor is not known: its reference takes its place, as instrument.
+SWEPT_LOGS = ["amp25-1", "amp25-2", "amp75-1", "amp75-2"]
+SWEPT_AGAIN = ("frf-amp25-2", "frf-amp75-2")
+SWEPT_PAYLOAD_KG = 0.0077
+SWEPT = Recording(
+    name="swept-ruler",
+    logs=[f"swept-ruler/{log}.txt" for log in SWEPT_LOGS],
+    files={"swept.toml": f"""name = "swept ruler"
+
+[beam]
+length = 0.4318
+width = 0.020638
+thickness = 0.00079375
+linear_density = 0.1319
+youngs_modulus = 200e9
+
+[hub]
+inertia = 1e-4   # of no influence on responses to its motion
+
+[payload]
+mass = {SWEPT_PAYLOAD_KG}
+"""},
+    cases=[Case(
+        "responses-to-hub", "from the hub angle to the acceleration of the tip",
+        [["import", *[f"DATA/swept-ruler/{log}.txt" for log in SWEPT_LOGS],
+          "--column", "time=t:s", "--column", "hub_angle=$\\theta$:rad:2*pi/1024",
+          "--column", "tip_acceleration=a:m/s^2:1/1.56", "--column", "torque=u:N m:0.001",
+          "--arm", "swept.toml", "--out", "swept"],
+         ["identify", "swept/measurement.toml", "--input", "hub_angle", "--no-fit",
+          "--out", "swept-identified"],
+         ["import", *[f"swept-identified/frf-{log}.csv" for log in SWEPT_LOGS],
+          *[part for run in SWEPT_AGAIN for part in ("--validation", run)],
+          "--arm", "swept.toml", "--out", "responses-to-hub"]],
+        [], SWEPT_AGAIN)],
+    known=[
+        Known("mass at the tip, 7.7 g filed [kg]", (0.0117, 0.0127),
+              "fits of these logs (README of the logs)",
+              named("responses-to-hub",
+                    ("payload_mass", "mass", 1.0, SWEPT_PAYLOAD_KG, "kg"),
+                    ("attached_mass", "mass", 1.0, SWEPT_PAYLOAD_KG, "kg")), 0.15),
+        Known("gain of the accelerometer, over the makers'", (0.70, 0.76),
+              "fits of these logs (README of the logs)",
+              plain("responses-to-hub", "sensor_gain", "factor", "1"), 0.05),
+    ],
+    goals=[Goal("a mass at the tip named",
+                names_one_of(["responses-to-hub"], ["payload_mass", "attached_mass"]))])
+
+RECORDINGS = [EMPS, ROTARY, RULER, RIG, STEPS, ROBOT, SERVO, SWEPT]

@@ -271,6 +271,8 @@ std::vector<PlannedRun> planned_as_measured(const Problem& problem) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto& [run, data] = experiment.runs[r];
     if (!problem.estimation_runs()[r] || run.kind == RunKind::modal) continue;
+    const auto* responses = std::get_if<measured::FrequencyRecord>(&data);
+    if (responses != nullptr && responses->input) continue;  // plans are of torques
     PlannedRun planned;
     planned.id = run.id;
     planned.purpose = run.purpose;
@@ -290,7 +292,7 @@ std::vector<PlannedRun> planned_as_measured(const Problem& problem) {
       planned.duration_s = static_cast<double>(torque.size()) * planned.sample_time_s;
       planned.torque = std::move(torque);
     } else {
-      planned.frequencies = std::get<measured::FrequencyRecord>(data).channels.front().frequency_Hz;
+      planned.frequencies = responses->channels.front().frequency_Hz;
     }
     made.push_back(std::move(planned));
   }

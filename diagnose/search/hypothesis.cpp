@@ -52,6 +52,33 @@ double range_of(std::vector<double> values) {
   return most - least;
 }
 
+/// Returns the sum of the squares of the hub's velocity over the samples of a run, by a sensor of
+/// its velocity, or by the slope of its angle over so many samples that the counts of an encoder
+/// show little; empty where none shows the hub.
+std::optional<double> speed_squares_of(const measured::TimeRecord& record) {
+  constexpr std::size_t kSlopeSamples = 10;
+  const auto by_kind = [&](arm::SensorKind kind) {
+    return std::ranges::find_if(record.channels, [kind](const measured::Channel& channel) {
+      return channel.sensor.kind == kind;
+    });
+  };
+  double sum = 0.0;
+  if (const auto velocity = by_kind(arm::SensorKind::hub_velocity);
+      velocity != record.channels.end()) {
+    for (const double one : velocity->values) sum += one * one;
+    return sum;
+  }
+  const auto angle = by_kind(arm::SensorKind::hub_angle);
+  if (angle == record.channels.end() || angle->values.size() <= kSlopeSamples) return std::nullopt;
+  const std::vector<double>& values = angle->values;
+  const double step_s = static_cast<double>(kSlopeSamples) * measured::sampling_period_s(record);
+  for (std::size_t k = kSlopeSamples; k < values.size(); ++k) {
+    sum += std::pow((values[k] - values[k - kSlopeSamples]) / step_s, 2);
+  }
+  const auto slopes = static_cast<double>(values.size() - kSlopeSamples);
+  return sum / slopes * static_cast<double>(values.size());
+}
+
 void add_unknown(std::vector<arm::Sensor>& sensors, const arm::Sensor& sensor) {
   if (std::ranges::find(sensors, sensor) == sensors.end()) sensors.push_back(sensor);
 }
@@ -238,7 +265,10 @@ Scales scales_of(const Experiment& experiment) {
   if (!arm::has_beam(experiment.arm)) scales.beam = beam_beside(scales.beam, experiment);
   double squares = 0.0;
   double samples = 0.0;
-  double speed_squares = 0.0;
+  std::vector<double> sizes_N_m;
+  double speed_squares = 0.0;     // of a rigid arm
+  double measured_squares = 0.0;  // of the hub, in the runs that show it
+  double measured_samples = 0.0;
   double highest_Hz = 0.0;
   double period_s = 0.0;
   for (const auto& [run, data] : experiment.runs) {
@@ -250,12 +280,17 @@ Scales scales_of(const Experiment& experiment) {
       period_s = period_s > 0.0 ? std::min(period_s, step) : step;
       double speed = 0.0;
       for (const double torque : record->torque_N_m) {
+        sizes_N_m.push_back(std::abs(torque));
         squares += torque * torque;
         speed += torque * step / inertia;
         speed_squares += speed * speed;
         scales.torque_peak_N_m = std::max(scales.torque_peak_N_m, std::abs(torque));
       }
       samples += static_cast<double>(record->torque_N_m.size());
+      if (const auto speeds = speed_squares_of(*record)) {
+        measured_squares += *speeds;
+        measured_samples += static_cast<double>(record->time_s.size());
+      }
       for (const auto& channel : record->channels) {
         add_unknown(scales.sensors, channel.sensor);
         if (channel.sensor.kind != arm::SensorKind::hub_angle) continue;
@@ -270,7 +305,10 @@ Scales scales_of(const Experiment& experiment) {
   }
   if (samples > 0.0) {
     scales.torque_rms_N_m = std::sqrt(squares / samples);
-    scales.speed_rms_rad_per_s = std::sqrt(speed_squares / samples);
+    scales.torque_low_N_m = effects::low_torque_N_m(std::move(sizes_N_m));
+    scales.speed_rms_rad_per_s = measured_squares > 0.0
+                                     ? std::sqrt(measured_squares / measured_samples)
+                                     : std::sqrt(speed_squares / samples);
     scales.shortest_time_s = 0.5 * period_s;
   } else if (highest_Hz > 0.0) {
     scales.shortest_time_s = 1.0 / (20.0 * highest_Hz);

@@ -183,16 +183,19 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
     if (const auto* record = std::get_if<measured::FrequencyRecord>(&data)) {
       Index end = channel.count;
       for (const Index first : octaves(response_of(*record, channel).frequency_Hz)) {
-        bands_.push_back({channel.first + first, end - first, 0.0, true});
+        bands_.push_back({.first = channel.first + first, .count = end - first, .is_stated = true});
         end = first;
       }
       continue;
     }
     if (std::holds_alternative<measured::ModalTable>(data)) {
-      bands_.push_back({channel.first, channel.count, 0.0, true});
+      bands_.push_back({.first = channel.first, .count = channel.count, .is_stated = true});
       continue;
     }
     const Index samples = transformed(channel);
+    const double line_Hz =
+        0.5 / (static_cast<double>(samples) *
+               measured::sampling_period_s(std::get<measured::TimeRecord>(data)));
     VectorXd signal = observations.values.segment(channel.first, samples)
                           .cwiseQuotient(observations.deviations.segment(channel.first, samples));
     bridge(channel.left_out, signal);
@@ -203,8 +206,11 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
       const Index count = end - first;
       const double followed = discrepancy * signal.segment(first, count).squaredNorm() +
                               kLeastSquare * static_cast<double>(count);
-      bands_.push_back({channel.first + first, count,
-                        known.segment(channel.first + first, count).sum() + followed});
+      bands_.push_back({.first = channel.first + first,
+                        .count = count,
+                        .added = known.segment(channel.first + first, count).sum() + followed,
+                        .line_Hz = line_Hz,
+                        .lowest_Hz = static_cast<double>(first) * line_Hz});
       end = first;
     }
   }
@@ -287,6 +293,33 @@ bool Likelihood::is_noise(const VectorXd& lines) const {
   const auto n = static_cast<double>(nuisances);
   if (lines.tail(nuisances).squaredNorm() - n > kBandChance * std::sqrt(2.0 * n)) return false;
   return excess <= kTotalChance * std::sqrt(variance);
+}
+
+std::vector<double> Likelihood::peaks_Hz(const VectorXd& lines, std::size_t most) const {
+  struct Peak {
+    double share = 0.0;  // of the squares of its octave
+    double frequency_Hz = 0.0;
+  };
+  std::vector<Peak> peaks;
+  double resolution_Hz = std::numeric_limits<double>::infinity();
+  for (const Band& band : bands_) {
+    if (band.line_Hz == 0.0) continue;
+    resolution_Hz = std::min(resolution_Hz, 2.0 * band.line_Hz);
+    Index at = 0;
+    const VectorXd squares = lines.segment(band.first, band.count).cwiseAbs2();
+    const double share = squares.maxCoeff(&at) / squares.sum();
+    peaks.push_back({share, band.lowest_Hz + static_cast<double>(at) * band.line_Hz});
+  }
+  std::ranges::stable_sort(peaks, std::ranges::greater{}, &Peak::share);
+  std::vector<double> made;
+  for (const Peak& peak : peaks) {
+    if (made.size() == most) break;
+    const bool is_met = std::ranges::any_of(made, [&](double other_Hz) {
+      return std::abs(other_Hz - peak.frequency_Hz) < resolution_Hz;
+    });
+    if (!is_met && peak.frequency_Hz > 0.0) made.push_back(peak.frequency_Hz);
+  }
+  return made;
 }
 
 VectorXd Likelihood::weights(const VectorXd& lines) const {

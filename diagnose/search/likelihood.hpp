@@ -32,8 +32,9 @@ enum class SampleSize { of_model_error, of_noise };
 /// other the more of them a record has, and m_b = min(n_b, kSampleSize). Lines of noise are
 /// independent, m_b = n_b: between sets that both leave noise these decide.
 ///
-/// Lines of responses and entries of modal tables have stated deviations. A channel of them is one
-/// band: noise, and an error of the model that has m degrees of freedom,
+/// Lines of responses and entries of modal tables have stated deviations. An octave of a response,
+/// or a channel of a table, is one band: noise, and an error of the model that has m degrees of
+/// freedom,
 ///
 ///     -2 ln L = S                            S <= n
 ///               n + m ln(1 + (S - n)/m)      S >  n
@@ -74,6 +75,9 @@ class Likelihood {
   /// the nuisances, nor all of them together exceed what is expected by more than chance does in
   /// one case of a few hundred.
   bool is_noise(const Eigen::VectorXd& lines) const;
+  /// Returns the frequencies [Hz] of the `most` lines of `time` runs with the largest shares of the
+  /// squares of their octaves, in order, no two nearer than the longest run resolves.
+  std::vector<double> peaks_Hz(const Eigen::VectorXd& lines, std::size_t most) const;
   /// Returns the derivatives of -2 ln L by the square of each line: the weights of the quadratic
   /// form that has the same derivatives there.
   Eigen::VectorXd weights(const Eigen::VectorXd& lines) const;
@@ -83,6 +87,8 @@ class Likelihood {
     Eigen::Index first = 0;
     Eigen::Index count = 0;
     double added = 0.0;        ///< a_b
+    double line_Hz = 0.0;      ///< between lines of a `time` run
+    double lowest_Hz = 0.0;    ///< of the first of these
     bool is_stated = false;    ///< its deviations are
     double sample_size = 0.0;  ///< m_b
 

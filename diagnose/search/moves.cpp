@@ -30,6 +30,9 @@ constexpr double kSmallSize = 0.1;
 /// A smaller part of it beside no effect, for what is far below the range of its search.
 constexpr double kSmallestSize = 0.01;
 
+/// Peaks of the residuals at whose frequencies an effect with a frequency is looked at.
+constexpr std::size_t kPeaks = 4;
+
 /// Returns the columns of `jacobian` but those by the effect at `index`.
 MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::size_t index) {
   const auto first = static_cast<Index>(set.nuisances.size() + set.values_before(index));
@@ -165,6 +168,7 @@ class Neighbourhood {
     const Candidate& set = base.candidate;
     const VectorXd weights = likelihood.weights(base.lines);
     const bool is_noise = likelihood.is_noise(base.lines);
+    if (!is_noise) peaks_Hz_ = likelihood.peaks_Hz(base.lines, kPeaks);
     whole_ = std::make_unique<Ground>(likelihood, set, base.lines, base.jacobian, weights);
     without_.resize(set.effects.size());
     by_tangent_.resize(set.effects.size());
@@ -201,7 +205,10 @@ class Neighbourhood {
     bool is_new = true;
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (!without_[i]) continue;
-      if (own[i].label() == effect.label()) return {};
+      if (own[i].label() == effect.label()) {
+        look_beside(*without_[i], effect, {samples_at(effect, peaks_Hz_)}, {i}, made);
+        return made;
+      }
       is_new = is_new && own[i].effect != effect.effect;
       if (depend_on_each_other(own[i], effect)) {
         auto groups = groups_of_samples(effect, own.size() == 1);
@@ -213,7 +220,9 @@ class Neighbourhood {
     }
     additive.push_back(own.size());
     if (is_new) {
-      look_beside(*whole_, effect, groups_of_samples(effect, own.empty()), additive, made);
+      auto groups = groups_of_samples(effect, own.empty());
+      groups.push_back(samples_at(effect, peaks_Hz_));
+      look_beside(*whole_, effect, groups, additive, made);
     }
     return made;
   }
@@ -279,6 +288,7 @@ class Neighbourhood {
   const Likelihood& likelihood_;
   const ScoredFit& base_;
   const ReportedWork& work_;
+  std::vector<double> peaks_Hz_;  ///< of what the set leaves
   std::unique_ptr<Ground> whole_;
   std::vector<std::unique_ptr<Ground>> without_;  ///< one an effect; null where there is no arm
   /// Grounds of a set that leaves noise, without each effect to first order in what it changes.

@@ -37,7 +37,9 @@ struct Move {
 /// likelihood of these lines, in which the noise is estimated again. c is taken beside the whole
 /// set, so that it serves all swaps but those of effects that depend on each other: of one family,
 /// which act at one place, and of an effect and a limit of it. There a swap also begins at the
-/// values of the parameters that both have. Throws Cancelled where the work is cancelled.
+/// values of the parameters that both have. An effect with a frequency is looked at where what the
+/// set leaves has peaks; one of the set gives place to itself there. Throws Cancelled where the
+/// work is cancelled.
 std::vector<Move> moves_of(const Likelihood& likelihood, const ScoredFit& base,
                            std::span<const Hypothesis> others, const ReportedWork& work);
 

@@ -1,6 +1,7 @@
 #include "diagnose/search/predictor_choice.hpp"
 
 #include "arm/input_error.hpp"
+#include "arm/rigid_hub.hpp"
 #include "arm/sensor.hpp"
 #include "diagnose/predictors/response_runs.hpp"
 
@@ -214,7 +215,8 @@ bool is_doubtful(const Selection& selection) {
 /// simulation. Where that does not leave noise, noise of the torque is tried beside the effects
 /// that it names. The other predictors are tried where it supports none, or errs by more than
 /// kUseless. Where a simulation of the arm as filed runs away, the effects that the torque balance
-/// shows are what the search begins with.
+/// shows are what the search begins with; of an arm without a beam they are the result, if the
+/// validation runs support one.
 PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {
@@ -225,11 +227,21 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
   }
   std::optional<PredictedSelection> balanced;
   SelectionOptions options = task.options;
+  const arm::Arm& arm = problem.experiment().arm;
   try {
-    if (problem.until(options.deadline).judged_error(problem.experiment().arm) > kRanAway) {
+    const double error = problem.until(options.deadline).judged_error(arm);
+    if (error > kRanAway) {
       balanced = balance_before_simulation(task, problem, part_of(progress, 0.1, 0.3));
     }
     if (balanced && balanced->selection.cancelled) return *std::move(balanced);
+    if (balanced && !arm::has_beam(arm) && !balanced->selection.end &&
+        !is_doubtful(balanced->selection) && balanced->simulated_error() < error) {
+      balanced->reason = fmt::format(
+          "a simulation of the arm file leaves {:.3g} % of the signals, and the torque that a "
+          "motion takes shows all of an arm without a beam",
+          100.0 * error);
+      return *std::move(balanced);
+    }
     if (balanced) options.starts.push_back(balanced->selection.chosen.fit.candidate);
   } catch (const Cancelled&) {
     // The simulation says that no time is left.

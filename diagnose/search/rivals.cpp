@@ -12,6 +12,15 @@ bool is_rival(const Candidate& one, const Candidate& other) {
   return one.effects.size() == other.effects.size() && shared + 1 == std::ssize(one.effects);
 }
 
+bool is_limit(const Candidate& one, const Candidate& other) {
+  if (!is_rival(one, other)) return false;
+  const auto own_of = [](const Candidate& set, const Candidate& beside) {
+    return *std::ranges::find_if(set.effects,
+                                 [&](const Hypothesis& effect) { return !beside.has(effect); });
+  };
+  return own_of(other, one).contains(own_of(one, other).effect);
+}
+
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
                              const Posterior& posterior) {
   std::vector<Rival> found;

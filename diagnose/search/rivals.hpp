@@ -19,6 +19,9 @@ struct Rival {
 /// One that has another effect in the place of one of the other's.
 bool is_rival(const Candidate& one, const Candidate& other);
 
+/// Returns whether it has a limit in the place of an effect of the other's (Hypothesis::contains).
+bool is_limit(const Candidate& one, const Candidate& other);
+
 /// The rivals of a cause among the sets that were fitted, the nearest first; one that has the cause
 /// as a limit is none. Pointers are into `selection`.
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,

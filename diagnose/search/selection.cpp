@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -36,33 +37,53 @@ std::vector<ScoredFit> without_each(const Likelihood& likelihood, const ScoredFi
   return made;
 }
 
-/// Drops effects without which a set has posterior odds of kIndistinguishableOdds or less against
-/// it.
-void drop_by_odds(const Likelihood& likelihood, ScoredFit& best, const ReportedWork& work) {
-  const double margin = 2.0 * std::log(kIndistinguishableOdds);
-  while (!best.candidate.effects.empty()) {
-    const std::vector<ScoredFit> without = without_each(likelihood, best, work);
-    const auto weakest = std::ranges::min_element(without, {}, &ScoredFit::score);
-    if (weakest->score > best.score + margin) return;
-    best = scored_fit(likelihood, weakest->candidate, work);
+/// A fitted set and the fits without each of its effects.
+struct SetWithoutEach {
+  ScoredFit set;
+  std::vector<ScoredFit> without;
+};
+
+/// Returns a set from which no effect can be dropped without posterior odds of more than
+/// kIndistinguishableOdds against it beside the best of `sets`, which are in order, or without
+/// leaving more than noise where that does not. An effect gives place to a limit of it in the same
+/// way, in a set that was fitted.
+SetWithoutEach simplest_of(const Likelihood& likelihood, const std::vector<ScoredFit>& sets,
+                           const ReportedWork& work) {
+  ScoredFit simplest = sets.front();
+  const double highest = simplest.score + 2.0 * std::log(kIndistinguishableOdds);
+  const bool leaves_noise = likelihood.is_noise(simplest.lines);
+  const auto does_as_well = [&](const ScoredFit& one) {
+    return one.score <= highest && (!leaves_noise || likelihood.is_noise(one.lines));
+  };
+  for (const ScoredFit& other : sets) {
+    if (!is_limit(other.candidate, simplest.candidate) || !does_as_well(other)) continue;
+    simplest = scored_fit(likelihood, other.candidate, work);
+  }
+  while (true) {
+    std::vector<ScoredFit> without = without_each(likelihood, simplest, work);
+    const auto score = [&](const ScoredFit& one) {
+      return does_as_well(one) ? one.score : std::numeric_limits<double>::infinity();
+    };
+    const auto weakest = std::ranges::min_element(without, {}, score);
+    if (weakest == without.end() || !does_as_well(*weakest)) return {simplest, without};
+    simplest = scored_fit(likelihood, weakest->candidate, work);
   }
 }
 
-/// Drops the effects that validation runs are predicted better without. Returns the fits of the
-/// rest without each of its effects.
-std::vector<ScoredFit> drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out,
-                                          ScoredFit& best, const ReportedWork& work) {
-  while (true) {
-    std::vector<ScoredFit> without = without_each(likelihood, best, work);
-    if (without.empty() || !likelihood.problem().has_validation_runs()) return without;
+/// Drops the effects that validation runs are predicted better without.
+void drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out,
+                        SetWithoutEach& best, const ReportedWork& work) {
+  if (!likelihood.problem().has_validation_runs()) return;
+  while (!best.without.empty()) {
     std::vector<double> costs;
-    for (const ScoredFit& one : without) costs.push_back(held_out.cost_of(one.candidate));
+    for (const ScoredFit& one : best.without) costs.push_back(held_out.cost_of(one.candidate));
     const auto least = std::ranges::min_element(costs);
     // Fits end this far from their minima: runs that do not show an effect tell nothing against it.
     const double margin = 2.0 * ScoredFitOptions{}.tolerance;
-    if (!(*least < held_out.cost_of(best.candidate) - margin)) return without;
-    best = scored_fit(likelihood,
-                      without[static_cast<std::size_t>(least - costs.begin())].candidate, work);
+    if (!(*least < held_out.cost_of(best.set.candidate) - margin)) return;
+    const auto weakest = static_cast<std::size_t>(least - costs.begin());
+    best.set = scored_fit(likelihood, best.without[weakest].candidate, work);
+    best.without = without_each(likelihood, best.set, work);
   }
 }
 
@@ -129,27 +150,29 @@ void search_with_timing(Selection& made, FoundSets& sets, const std::vector<Hypo
 /// Takes up the noise that the data show beside the best set, white or coloured. Where the arm as
 /// filed leaves noise of some colour, that is the best set. Effects that are not needed beside
 /// coloured noise are dropped. The fits are of `likelihood`, in white noise.
-void see_noise(const Likelihood& likelihood, Problem& problem, ScoredFit& best,
+void see_noise(const Likelihood& likelihood, Problem& problem, SetWithoutEach& best,
                const ScoredFit& filed, ReportedWork& work) {
+  const Candidate& set = best.set.candidate;
   const auto& noise = problem.predictor().noise();
   if (noise && !noise->is_torque_noise()) {
-    problem.estimate_noise(best.candidate, [&work] { work.go_on(); });
+    problem.estimate_noise(set, [&work] { work.go_on(); });
     return;
   }
-  problem.lower_noise(best.candidate);
+  problem.lower_noise(set);
   if (auto coloured = with_noise_colour(problem, filed.candidate, kResidualLevel, work)) {
     problem = *std::move(coloured);
-    best = filed;
-  } else if (!best.candidate.effects.empty()) {
-    coloured = with_noise_colour(problem, best.candidate, kResidualLevel, work);
+    best = {filed, {}};
+  } else if (!set.effects.empty()) {
+    coloured = with_noise_colour(problem, set, kResidualLevel, work);
     if (!coloured) return;
     problem = *std::move(coloured);
     const Likelihood beside_noise =
         Likelihood(problem, problem.estimation_runs()).with(SampleSize::of_noise);
-    ScoredFit kept = scored_fit(beside_noise, best.candidate, work);
-    drop_by_odds(beside_noise, kept, work);
-    if (kept.candidate.effects.size() < best.candidate.effects.size()) {
-      best = scored_fit(likelihood, kept.candidate, work);
+    const Candidate kept =
+        simplest_of(beside_noise, {scored_fit(beside_noise, set, work)}, work).set.candidate;
+    if (kept.effects.size() < set.effects.size()) {
+      best.set = scored_fit(likelihood, kept, work);
+      best.without = without_each(likelihood, best.set, work);
     }
   }
 }
@@ -213,7 +236,6 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   made.problem = recorded.until(options.deadline);
   FoundSets sets;
   ScoredFit filed;
-  std::vector<ScoredFit> without;
   const auto in_time = [&](const auto& step) {
     try {
       step();
@@ -230,25 +252,28 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     sets.best.push_back({.candidate = made.problem.as_filed()});
     sets.is_complete = false;
   }
-  ScoredFit best = sets.best.front();
-  if (!sets.is_complete) made.end = SearchEnd{kStage, labels_beside(best, hypotheses)};
+  SetWithoutEach found{sets.best.front(), {}};
+  if (!sets.is_complete) made.end = SearchEnd{kStage, labels_beside(found.set, hypotheses)};
   in_time([&] {
     const Problem searched = made.problem;
     const Likelihood likelihood =
         Likelihood(searched, searched.estimation_runs()).with(sets.sample_size);
     filed = scored_fit(likelihood, searched.as_filed(), work);
-    see_noise(likelihood, made.problem, best, filed, work);
+    found = simplest_of(likelihood, sets.best, work);
+    see_noise(likelihood, made.problem, found, filed, work);
     const Likelihood held_out =
         Likelihood(searched, searched.validation_runs()).with(sets.sample_size);
-    without = drop_by_validation(likelihood, held_out, best, work);
-    if (best.candidate.effects.empty()) {
+    drop_by_validation(likelihood, held_out, found, work);
+    const Candidate& set = found.set.candidate;
+    if (set.effects.empty()) {
       // Nothing was found that the residuals depend on.
-      auto coloured = with_noise_colour(made.problem, best.candidate, kCertainDependence, work);
+      auto coloured = with_noise_colour(made.problem, set, kCertainDependence, work);
       if (coloured) made.problem = *std::move(coloured);
     }
-    made.evidence = evidence_for_each(held_out, best, without, work);
+    made.evidence = evidence_for_each(held_out, found.set, found.without, work);
   });
   work.lift_deadline();
+  const auto& [best, without] = found;
   if (!filed.is_possible() && best.candidate.effects.empty()) {
     made.problem = of_filed;
     return;
@@ -270,7 +295,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
   // After the deadline: each set that is kept costs simulations of all data.
   if (made.end && made.evidence.empty()) {
     sets.best.clear();
-    without.clear();
+    found.without.clear();
   }
   sets.best.insert(sets.best.begin(), best);
   keep_sets(made, sets.best, without);

@@ -120,7 +120,7 @@ class Rung {
     const bool is_empty = set.effects.empty();
     std::vector<Move> swaps = moves_from(base);
     std::map<std::size_t, std::size_t> fitted_for;
-    std::set<Labels> tried;
+    std::set<Labels> tried = {set.labels()};
     std::erase_if(swaps, [&](const Move& one) {
       if (one.added == nullptr || one.dropped.has_value() == is_empty) return true;
       if (!tried.insert(one.of(set).labels()).second) return true;
@@ -203,9 +203,10 @@ class Rung {
   }
 
   /// Returns the moves of `base` that are fitted: to sets that were not met before, and to smaller
-  /// ones that were met at another minimum.
+  /// ones, and to the set itself, from values that are predicted to be at a lower minimum.
   std::vector<Move> looked_at(const ScoredFit& base, Looks kind) {
     std::vector<Move> moves = moves_from(base);
+    const Labels own_labels = base.candidate.labels();
     std::size_t looks = 0;
     std::set<Labels> new_sets;
     const bool is_full =
@@ -217,8 +218,8 @@ class Rung {
       if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
       const Labels labels = one.of(base.candidate).labels();
       const auto met = met_.find(labels);
-      const bool is_smaller = one.added == nullptr;
-      if (met == met_.end() || (is_smaller && one.score < met->second - options_.worth)) {
+      const bool is_met_again = one.added == nullptr || labels == own_labels;
+      if (met == met_.end() || (is_met_again && one.score < met->second - options_.worth)) {
         new_sets.insert(labels);
       }
       if (!new_sets.contains(labels)) return true;

@@ -68,14 +68,37 @@ std::vector<StartPlaces> all_of(const std::vector<std::vector<double>>& places) 
   return combinations;
 }
 
+/// Returns places of each of several parameters over its range, the size at its middle.
+std::vector<std::vector<double>> spread_places(const Hypothesis& hypothesis) {
+  std::vector<std::vector<double>> places(hypothesis.parameters.size(), kSpreadPlaces);
+  if (const auto along = hypothesis.place_parameter()) places[*along] = {0.1, 0.3, 0.5, 0.7, 0.9};
+  if (const auto sized = hypothesis.size_parameter()) places[*sized] = {kMiddle};
+  return places;
+}
+
 }  // namespace
 
 std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis) {
   const std::vector<SearchedParameter>& parameters = hypothesis.parameters;
   if (parameters.size() == 1) return all_of({first_places(parameters.front())});
-  std::vector<std::vector<double>> places(parameters.size(), kSpreadPlaces);
-  if (const auto along = hypothesis.place_parameter()) places[*along] = {0.1, 0.3, 0.5, 0.7, 0.9};
-  if (const auto sized = hypothesis.size_parameter()) places[*sized] = {kMiddle};
+  return all_of(spread_places(hypothesis));
+}
+
+std::vector<StartPlaces> samples_at(const Hypothesis& hypothesis,
+                                    const std::vector<double>& frequencies_Hz) {
+  const auto frequency = std::ranges::find(
+      hypothesis.parameters, std::string("Hz"),
+      [&](const SearchedParameter& parameter) { return hypothesis.unit_of(parameter); });
+  if (frequency == hypothesis.parameters.end()) return {};
+  std::vector<double> at;
+  for (const double frequency_Hz : frequencies_Hz) {
+    if (frequency_Hz > frequency->lowest && frequency_Hz < frequency->highest) {
+      at.push_back(frequency->coordinate(frequency_Hz));
+    }
+  }
+  if (at.empty()) return {};
+  auto places = spread_places(hypothesis);
+  places[static_cast<std::size_t>(frequency - hypothesis.parameters.begin())] = at;
   return all_of(places);
 }
 

@@ -20,6 +20,11 @@ inline const std::vector<double> kEvenPlaces = {0.05, 0.15, 0.25, 0.35, 0.45,
 /// which it does nothing and over its range; of several over their ranges, the size at its middle.
 std::vector<StartPlaces> samples_of(const Hypothesis& hypothesis);
 
+/// Returns samples_of an effect with a frequency, at these in the place of those over its range;
+/// empty for other effects, and without one in its range.
+std::vector<StartPlaces> samples_at(const Hypothesis& hypothesis,
+                                    const std::vector<double>& frequencies_Hz);
+
 /// Returns values to look at in the place of another effect at `values`, where one of the two is a
 /// limit of the other: parameters that both have as they are, others over their ranges. Empty where
 /// neither is, or they have no parameter in common.

@@ -120,7 +120,7 @@ std::vector<RootShift> root_shifts(const SymptomsInput& input) {
     if (const auto* table = std::get_if<measured::ModalTable>(&runs[r].data)) {
       add_table(input, r, *table, by_run[r]);
     } else if (const auto* record = std::get_if<measured::FrequencyRecord>(&runs[r].data)) {
-      by_run[r] = fitted(input, r, *record);
+      if (!record->input) by_run[r] = fitted(input, r, *record);
     }
   });
   std::vector<RootShift> shifts;

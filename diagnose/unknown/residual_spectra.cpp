@@ -275,7 +275,9 @@ std::vector<ResidualSpectra> residual_spectra(const Problem& problem,
   std::vector<ResidualSpectra> all;
   const auto& runs = problem.experiment().runs;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (const auto* responses = std::get_if<measured::FrequencyRecord>(&runs[r].data)) {
+    const auto* responses = std::get_if<measured::FrequencyRecord>(&runs[r].data);
+    // A force on the arm moves the hub too, so that a response to that tells nothing of its place.
+    if (responses != nullptr && !responses->input) {
       add_responses(problem, r, *responses, errors, all);
     }
     const auto* record = std::get_if<measured::TimeRecord>(&runs[r].data);

@@ -29,8 +29,12 @@ namespace {
 
 using arm::InputError;
 
-enum Place : std::size_t { frequency, sensor, re, im, coherence };
-const std::array<std::string, 5> kNames = {"frequency [Hz]", "sensor", "re", "im", "coherence"};
+enum Place : std::size_t { frequency, sensor, re, im, coherence, input };
+const std::array<std::string, 6> kNames = {"frequency [Hz]", "sensor", "re", "im",
+                                           "coherence",      "input"};
+/// The columns of a record whose input is the torque.
+const auto kNamesOfTorque = std::span(kNames).first<input>();
+constexpr std::string_view kTorqueInput = "torque";
 
 /// Where each column of `kNames` stands in a row.
 using FrequencyHeader = std::array<std::optional<std::size_t>, kNames.size()>;
@@ -59,7 +63,7 @@ FrequencyHeader read_frequency_header(std::span<const std::string_view> cells) {
   for (const auto place : {frequency, sensor, re, im}) {
     if (!header[place]) {
       throw InputError(fmt::format("column {}: missing; the header is {}", kNames[place],
-                                   fmt::join(kNames, ",")));
+                                   fmt::join(kNamesOfTorque, ",")));
     }
   }
   return header;
@@ -90,6 +94,11 @@ double read_coherence(std::string_view cell) {
                                kNames[coherence], arm::shown(cell)));
 }
 
+void require_output(const arm::Sensor& sensor, const std::optional<arm::Sensor>& input) {
+  if (sensor != input) return;
+  throw InputError(fmt::format("{}: is the input; must be another sensor", arm::to_string(sensor)));
+}
+
 void require_ascending(const arm::Sensor& at, double before_Hz, double frequency_Hz) {
   if (frequency_Hz > before_Hz) return;
   throw InputError(fmt::format(
@@ -111,6 +120,7 @@ class Builder {
       throw InputError(fmt::format("{} cell{}; the header has {} (numbers have a decimal point)",
                                    cells.size(), cells.size() == 1 ? "" : "s", columns_));
     }
+    if (header_[input]) add_input(cells[*header_[input]]);
     FrequencyChannel& channel = channel_of(cells[*header_[sensor]]);
     const double frequency_Hz =
         read_number(frequency, cells[*header_[frequency]], arm::kNotNegative);
@@ -127,11 +137,21 @@ class Builder {
   FrequencyRecord take() { return std::move(record_); }
 
  private:
+  void add_input(std::string_view cell) {
+    const auto read = parse_response_input(cell);
+    if (!record_.channels.empty() && read != record_.input) {
+      throw InputError(
+          fmt::format("{} = {}: must be that of the rows before", kNames[input], arm::shown(cell)));
+    }
+    record_.input = read;
+  }
+
   /// Two spellings of one place along the beam are one sensor.
   FrequencyChannel& channel_of(std::string_view name) {
     const auto known = channel_of_name_.find(name);
     if (known != channel_of_name_.end()) return record_.channels[known->second];
     const arm::Sensor read = arm::parse_sensor(name);
+    require_output(read, record_.input);
     auto& channels = record_.channels;
     const auto place = static_cast<std::size_t>(
         std::ranges::find(channels, read, &FrequencyChannel::sensor) - channels.begin());
@@ -188,19 +208,35 @@ bool FrequencyChannel::operator==(const FrequencyChannel& other) const {
 void require_valid(const FrequencyRecord& record) {
   const auto& channels = record.channels;
   if (channels.empty()) throw InputError("no sensor; needs the response of one or more");
+  parse_response_input(name_of_input(record));
   for (const auto& channel : channels) {
     if (std::ranges::count(channels, channel.sensor, &FrequencyChannel::sensor) > 1) {
       throw InputError(fmt::format("{}: given twice", arm::to_string(channel.sensor)));
     }
+    require_output(channel.sensor, record.input);
     require_valid(channel);
   }
+}
+
+std::optional<arm::Sensor> parse_response_input(std::string_view name) {
+  if (name == kTorqueInput) return std::nullopt;
+  for (const auto kind : {arm::SensorKind::hub_angle, arm::SensorKind::hub_velocity}) {
+    const arm::Sensor of_hub{kind, 0.0};
+    if (name == arm::to_string(of_hub)) return of_hub;
+  }
+  throw InputError(fmt::format("{} = {}: must be {}, hub_angle or hub_velocity", kNames[input],
+                               arm::shown(name), kTorqueInput));
+}
+
+std::string name_of_input(const FrequencyRecord& record) {
+  return record.input ? arm::to_string(*record.input) : std::string(kTorqueInput);
 }
 
 FrequencyRecord parse_frequency_record(std::string_view csv, const std::string& file_name) {
   CsvReader reader(csv);
   try {
     if (!reader.next()) {
-      throw InputError(fmt::format("empty; the header is {}", fmt::join(kNames, ",")));
+      throw InputError(fmt::format("empty; the header is {}", fmt::join(kNamesOfTorque, ",")));
     }
     Builder builder(read_frequency_header(reader.cells()));
     while (reader.next()) builder.add(reader.cells());
@@ -219,14 +255,20 @@ FrequencyRecord read_frequency_record(const std::filesystem::path& path) {
 
 std::string format_frequency_record(const FrequencyRecord& record) {
   require_valid(record);
-  std::string out = fmt::format("{}\n", fmt::join(kNames, ","));
+  std::string end = "\n";
+  std::string out = fmt::format("{}", fmt::join(kNamesOfTorque, ","));
+  if (record.input) {
+    out += fmt::format(",{}", kNames[input]);
+    end = fmt::format(",{}\n", name_of_input(record));
+  }
+  out += '\n';
   for (const auto& channel : record.channels) {
     const std::string name = arm::to_string(channel.sensor);
     for (std::size_t i = 0; i < channel.frequency_Hz.size(); ++i) {
       fmt::format_to(std::back_inserter(out), "{},{},{},{},", channel.frequency_Hz[i], name,
                      channel.response[i].real(), channel.response[i].imag());
       if (!std::isnan(channel.coherence[i])) out += fmt::format("{}", channel.coherence[i]);
-      out += '\n';
+      out += end;
     }
   }
   return out;

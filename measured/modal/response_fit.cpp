@@ -22,6 +22,16 @@ double part_of(double deviation, std::complex<double> value) {
                   std::numeric_limits<double>::epsilon() * std::abs(value));
 }
 
+/// Time derivatives from the motion of the hub that a sensor shows to its acceleration.
+int derivatives_to_acceleration(const arm::Sensor& of_hub) {
+  return 2 - arm::derivative_order(of_hub);
+}
+
+/// Returns whether a sensor shows more than the bending of the beam: a part of it follows the hub.
+bool follows_hub(const FrequencyChannel& channel) {
+  return !bends_only(channel.sensor.kind);
+}
+
 }  // namespace
 
 bool is_fitted_by_responses(const FrequencyResponseEstimate& estimate) {
@@ -43,16 +53,17 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
   const std::size_t stride =
       estimate.periodic ? 1
                         : static_cast<std::size_t>(main_lobe_lines(estimate.settings.plan.window));
-  const int hub_derivatives = estimator.input == RecordedSignal::hub_velocity ? 1 : 2;
+  FrequencyRecord record;
+  if (estimator.hub_held()) record.input = arm::parse_sensor(to_string(estimator.input));
   const auto s_at = [&](std::size_t k) {
     return std::complex<double>(0.0, 2.0 * std::numbers::pi * estimate.frequency_Hz[k]);
   };
   // From an estimated response to the one that is fitted, and from the ratio of the signals.
   const auto per_input = [&](std::size_t k) {
-    return estimator.hub_held() ? std::pow(s_at(k), -hub_derivatives) : std::complex<double>(1.0);
+    return record.input ? std::pow(s_at(k), -derivatives_to_acceleration(*record.input))
+                        : std::complex<double>(1.0);
   };
   const auto per_ratio = [&](std::size_t k) { return per_input(k) / estimate.hold[k]; };
-  FrequencyRecord record;
   std::vector<std::vector<std::size_t>> lines;
   options.response_std.clear();
   for (const ChannelEstimate& channel : estimate.channels) {
@@ -73,11 +84,7 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
     }
     record.channels.push_back(std::move(made));
   }
-  if (estimator.hub_held()) {
-    options.rigid_body = std::ranges::any_of(record.channels, [](const FrequencyChannel& channel) {
-      return !bends_only(channel.sensor.kind);
-    });
-  }
+  if (record.input) options.rigid_body = std::ranges::any_of(record.channels, follows_hub);
   // Batches of lines do not hold: a pole is determined by the few lines of its resonance.
   options.robust = false;
   const auto with_correlation = [&](const ModalFit& fit) {
@@ -112,6 +119,24 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
     reweigh(fit);
   }
   options.covariance = with_correlation;
+  return fit_modes(record, options);
+}
+
+ModalFit fit_responses(FrequencyRecord record, ModalFitOptions options) {
+  if (!record.input) return fit_modes(record, options);
+  const int derivatives = derivatives_to_acceleration(*record.input);
+  for (FrequencyChannel& channel : record.channels) {
+    if (!channel.frequency_Hz.empty() && channel.frequency_Hz.front() == 0.0) {
+      channel.frequency_Hz.erase(channel.frequency_Hz.begin());
+      channel.response.erase(channel.response.begin());
+      channel.coherence.erase(channel.coherence.begin());
+    }
+    for (std::size_t k = 0; k < channel.response.size(); ++k) {
+      const std::complex<double> s(0.0, 2.0 * std::numbers::pi * channel.frequency_Hz[k]);
+      channel.response[k] *= std::pow(s, -derivatives);
+    }
+  }
+  options.rigid_body = std::ranges::any_of(record.channels, follows_hub);
   return fit_modes(record, options);
 }
 

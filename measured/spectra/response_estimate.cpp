@@ -208,7 +208,9 @@ bool is_excited(const FrequencyResponseEstimate& estimate, std::size_t line) {
 
 FrequencyRecord to_frequency_record(const FrequencyResponseEstimate& estimate) {
   FrequencyRecord record;
-  const bool has_instrument = estimate.settings.estimator.instrument.has_value();
+  const Estimator& estimator = estimate.settings.estimator;
+  if (estimator.hub_held()) record.input = arm::parse_sensor(to_string(estimator.input));
+  const bool has_instrument = estimator.instrument.has_value();
   for (const auto& channel : estimate.channels) {
     FrequencyChannel made{channel.sensor, {}, {}, {}};
     for (std::size_t k = 0; k < estimate.frequency_Hz.size(); ++k) {

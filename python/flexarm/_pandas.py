@@ -57,14 +57,15 @@ def response_to_pandas(self):
 @method("to_pandas", FrequencyRun)
 def frequency_run_to_pandas(self):
     """pandas.DataFrame over frequency_Hz with a complex column for each sensor, named with its unit
-    per N m, hub_angle_rad_per_N_m, and its coherence, hub_angle_coherence; NaN where a sensor has
-    no such frequency. Raises ImportError where pandas is not installed."""
+    per that of the input, hub_angle_rad_per_N_m, and its coherence, hub_angle_coherence; NaN where
+    a sensor has no such frequency. Raises ImportError where pandas is not installed."""
     pandas = imported("pandas", "to_pandas", "pandas")
+    per = {"torque": "_per_N_m", "hub_angle": "_per_rad", "hub_velocity": "_per_rad_per_s"}
     parts = [
         _frame(
             {
                 "frequency_Hz": self.frequency_Hz(sensor),
-                _column(sensor, unit) + "_per_N_m": self[sensor],
+                _column(sensor, unit) + per[self.input]: self[sensor],
                 f"{sensor}_coherence": self.coherence(sensor),
             },
             "frequency_Hz",

@@ -158,9 +158,9 @@ NamedFigure bode_diagram(const compare::Comparison& comparison,
 NamedFigure measured_bode(const compare::MeasuredResponse& compared) {
   const arm::Sensor& sensor = compared.measured.sensor;
   FrequencyResponsePlot plot;
-  plot.title = compared.run.empty()
-                   ? fmt::format("Torque to {}, measured", sensor_label(sensor))
-                   : fmt::format("Torque to {}, measured: {}", sensor_label(sensor), compared.run);
+  const std::string input = compared.input ? "From " + sensor_label(*compared.input) : "Torque";
+  plot.title = fmt::format("{} to {}, measured", input, sensor_label(sensor));
+  if (!compared.run.empty()) plot.title += ": " + compared.run;
   for (std::size_t k = 0; k < compared.models.size(); ++k) {
     const bool has_curve = !compared.curves.empty();
     plot.analytical.push_back(
@@ -169,8 +169,9 @@ NamedFigure measured_bode(const compare::MeasuredResponse& compared) {
          has_curve ? compared.curves[k] : compared.values[k], formulation_colour(k)});
   }
   const std::string run = compared.run.empty() ? "" : "-" + compared.run;
-  return {fmt::format("bode-measured-{}{}", arm::to_string(sensor), run),
-          frequency_response_figure(measured_response(compared.measured), plot)};
+  return {
+      fmt::format("bode-measured-{}{}", arm::to_string(sensor), run),
+      frequency_response_figure(measured_response(compared.measured, {}, compared.input), plot)};
 }
 
 bool has_measured_values(const compare::MeasuredResponse& compared) {

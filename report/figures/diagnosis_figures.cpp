@@ -37,7 +37,9 @@ const Overlay* overlay_of(const Diagnosis& diagnosis, std::size_t run, const arm
 Figure response_overlay(const Experiment& experiment, const Overlay& overlay,
                         const measured::FrequencyChannel& channel, bool has_causes) {
   FrequencyResponsePlot plot;
-  plot.title = fmt::format("{}: torque to {}", experiment.runs[overlay.run].run.id,
+  const auto& [run, data] = experiment.runs[overlay.run];
+  const auto& record = std::get<measured::FrequencyRecord>(data);
+  plot.title = fmt::format("{}: {} to {}", run.id, in_words(measured::name_of_input(record)),
                            in_words(overlay.sensor));
   plot.analytical.push_back(
       {kBaselineName, channel.frequency_Hz, diagnose::response_of_parts(overlay.before)});
@@ -45,7 +47,7 @@ Figure response_overlay(const Experiment& experiment, const Overlay& overlay,
     plot.analytical.push_back(
         {kExtendedName, channel.frequency_Hz, diagnose::response_of_parts(overlay.after)});
   }
-  return frequency_response_figure(measured_response(channel), plot);
+  return frequency_response_figure(measured_response(channel, {}, record.input), plot);
 }
 
 /// Limits of an axis from most samples: the last ones say little of the torque

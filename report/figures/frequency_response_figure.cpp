@@ -171,8 +171,9 @@ double largest_of(const std::vector<double>& values) {
 Panel magnitude_panel(const MeasuredResponse& m, const std::vector<double>& interval,
                       const std::vector<ModelCurve>& models) {
   Panel panel;
-  panel.y = {
-      .label = kMagnitude, .unit = unit_text(response_unit(m.sensor)), .scale = Scale::logarithmic};
+  panel.y = {.label = kMagnitude,
+             .unit = unit_text(response_unit(m.sensor, m.input)),
+             .scale = Scale::logarithmic};
   panel.height = 1.8;
   const auto sizes = magnitude(m.response);
   panel.series.push_back(measured_curve(kMeasured, m.frequency_Hz, up_to_known(sizes, interval)));
@@ -339,13 +340,17 @@ MeasuredResponse measured_response(const measured::FrequencyResponseEstimate& es
   const auto& found = estimate.channels.at(channel);
   MeasuredResponse made{found.sensor,       estimate.frequency_Hz,      found.response,
                         found.relative_std, found.estimators.coherence, estimate.averages};
+  const measured::Estimator& estimator = estimate.settings.estimator;
+  if (estimator.hub_held()) made.input = arm::parse_sensor(to_string(estimator.input));
   drop_unexcited(estimate.input_autopower, made);
   return made;
 }
 
 MeasuredResponse measured_response(const measured::FrequencyChannel& channel,
-                                   std::optional<double> averages) {
+                                   std::optional<double> averages,
+                                   const std::optional<arm::Sensor>& input) {
   MeasuredResponse made{channel.sensor, channel.frequency_Hz, channel.response};
+  made.input = input;
   made.coherence = channel.coherence;
   made.averages = averages.value_or(0.0);
   if (!averages) return made;

@@ -18,12 +18,13 @@ namespace flexarm::report {
 struct MeasuredResponse {
   arm::Sensor sensor;
   std::vector<double> frequency_Hz;            ///< ascending
-  std::vector<std::complex<double>> response;  ///< per N m; NaN where unknown
+  std::vector<std::complex<double>> response;  ///< per unit of the input; NaN where unknown
   /// Standard deviation of |response| relative to itself, and of its phase [rad]; NaN where
   /// unknown.
   std::vector<double> relative_std = {};
   std::vector<double> coherence = {};
-  double averages = 0.0;  ///< nd, effective ones; 0: unknown
+  double averages = 0.0;                  ///< nd, effective ones; 0: unknown
+  std::optional<arm::Sensor> input = {};  ///< FrequencyRecord::input
 };
 
 /// Without values where nothing was measured: where the torque has less than a thousandth of its
@@ -34,7 +35,8 @@ MeasuredResponse measured_response(const measured::FrequencyResponseEstimate& es
 /// The standard deviation is that of the coherence (`relative_response_std`), where both it and the
 /// averages are known.
 MeasuredResponse measured_response(const measured::FrequencyChannel& channel,
-                                   std::optional<double> averages = {});
+                                   std::optional<double> averages = {},
+                                   const std::optional<arm::Sensor>& input = {});
 
 /// The response of a model.
 struct AnalyticalResponse {

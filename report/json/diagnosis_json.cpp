@@ -32,6 +32,7 @@ Json figures_json(const diagnose::Cause& cause) {
   }
   return {{"grade", to_string(cause.grade)},
           {"family", cause.family},
+          {"names_family", cause.names_family},
           {"loss",
            {{"score", figures.score},
             {"estimation", figures.estimation},
@@ -263,6 +264,7 @@ Json diagnosis_json(const diagnose::Diagnosis& diagnosis, const std::string& ext
           {"residual",
            {{"channels", channels},
             {"bands", bands_json(symptoms)},
+            {"regimes", regimes_json(symptoms)},
             {"roots", root_shifts_json(symptoms)},
             {"hub_torque", hub_torque_json(symptoms)},
             {"distortion", distortion_json(symptoms)},

@@ -41,7 +41,7 @@ const compare::IdentifiedCondition* condition_of(const IdentifiedRuns& runs, std
 /// As given; of a time record, where the torque is the input, the lines that it excites.
 MeasuredResponse response_of(const IdentifiedRuns& runs, const RunIdentification& run,
                              const measured::FrequencyChannel& channel) {
-  if (!run.estimate) return measured_response(channel);
+  if (!run.estimate) return measured_response(channel, {}, run.response.input);
   const auto& channels = run.estimate->channels;
   const auto at = std::ranges::find(channels, channel.sensor, &measured::ChannelEstimate::sensor);
   auto response = measured_response(*run.estimate, static_cast<std::size_t>(at - channels.begin()));
@@ -100,7 +100,7 @@ CurvesView response_view(const IdentifiedRuns& runs, std::size_t r,
     view.facts.push_back({"effective averages", number_of(run.estimate->averages, 3)});
     view.facts.push_back({"line spacing", number_of(run.estimate->spacing_Hz, 3) + " Hz"});
   }
-  view.panels = bode_panels(response_unit(channel.sensor), curves);
+  view.panels = bode_panels(response_unit(channel.sensor, measured.input), curves);
   return view;
 }
 

@@ -34,7 +34,7 @@ Series difference(const compare::MeasuredResponse& compared, std::size_t model) 
 }
 
 std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compared) {
-  const MeasuredResponse measured = measured_response(compared.measured);
+  const MeasuredResponse measured = measured_response(compared.measured, {}, compared.input);
   std::vector<BodeCurve> curves = {{"measured", Role::measured, measured.frequency_Hz,
                                     measured.response, measured.relative_std, measured.coherence}};
   CurvesPanel apart{{"relative difference", "", AxisScale::logarithmic}, 0.9, {}};
@@ -45,7 +45,7 @@ std::vector<CurvesPanel> response_panels(const compare::MeasuredResponse& compar
                       is_dense ? compared.curves[k] : compared.values[k]});
     apart.series.push_back(difference(compared, k));
   }
-  auto panels = bode_panels(response_unit(compared.measured.sensor), curves);
+  auto panels = bode_panels(response_unit(measured.sensor, measured.input), curves);
   if (!panels.empty()) panels.push_back(std::move(apart));
   return panels;
 }

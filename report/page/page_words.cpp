@@ -67,10 +67,12 @@ std::string sentence_of(std::string_view text) {
   return made;
 }
 
-std::string response_unit(const arm::Sensor& sensor) {
+std::string response_unit(const arm::Sensor& sensor, const std::optional<arm::Sensor>& input) {
   const std::string unit = axis_unit(sensor);
-  if (unit.empty()) return "1/(N m)";
-  return unit.find('/') == std::string::npos ? unit + "/(N m)" : "(" + unit + ")/(N m)";
+  const std::string per = input ? axis_unit(*input) : "N m";
+  const std::string behind = per == "rad" ? "/rad" : fmt::format("/({})", per);
+  if (unit.empty()) return "1" + behind;
+  return unit.find('/') == std::string::npos ? unit + behind : "(" + unit + ")" + behind;
 }
 
 std::string percent_of(double part) {

@@ -2,6 +2,7 @@
 
 #include "arm/sensor.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,8 +18,8 @@ std::string text_in_words(std::string_view text);
 /// `text_in_words` with a capital at its beginning.
 std::string sentence_of(std::string_view text);
 
-/// The unit of torque to that sensor, "(m/s²)/(N m)".
-std::string response_unit(const arm::Sensor& sensor);
+/// The unit of torque to that sensor, "(m/s²)/(N m)"; with a sensor of the hub as input "m/rad".
+std::string response_unit(const arm::Sensor& sensor, const std::optional<arm::Sensor>& input = {});
 
 /// Numbers as they stand beside a label.
 std::string percent_of(double part);              ///< "60.5 %" of 0.605

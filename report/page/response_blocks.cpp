@@ -80,7 +80,7 @@ std::vector<CurvesPanel> response_panels(const ResponsePair& pair, bool has_caus
       if (!is_known(pair.measured.relative_std, k)) simulated.response[k] = kGapNumber;
     }
   }
-  auto panels = bode_panels(response_unit(pair.sensor), curves);
+  auto panels = bode_panels(response_unit(pair.sensor, pair.measured.input), curves);
   if (panels.empty()) return panels;
   CurvesPanel apart{{"relative difference", "", AxisScale::logarithmic}, 0.9, {}};
   apart.series.push_back(difference("arm file", Role::residual_before, pair, pair.before));
@@ -102,7 +102,8 @@ ResponsePair given(const DiagnosedChannel& channel) {
   const auto& record = std::get<measured::FrequencyRecord>(channel.run->data);
   const arm::Sensor sensor = arm::parse_sensor(channel.overlay->sensor);
   const auto at = std::ranges::find(record.channels, sensor, &measured::FrequencyChannel::sensor);
-  return {sensor, measured_response(*at), diagnose::response_of_parts(channel.overlay->before),
+  return {sensor, measured_response(*at, {}, record.input),
+          diagnose::response_of_parts(channel.overlay->before),
           diagnose::response_of_parts(channel.overlay->after)};
 }
 

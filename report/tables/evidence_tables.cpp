@@ -20,14 +20,16 @@ std::string value_text(const diagnose::ParameterEstimate& parameter) {
 }
 
 /// Returns "coulomb_friction 0.021 N m (established)"; with effects that do as well "... 0.021 N m,
-/// or torque_dead_zone (supported)"; parameters behind the first with their names.
+/// or torque_dead_zone (supported)", behind the name of the family where all are of one: "dry
+/// friction of the hub: ..."; parameters behind the first with their names.
 std::string cause_text(const diagnose::Cause& cause) {
   std::vector<std::string> values;
   for (const auto& parameter : cause.parameters) {
     values.push_back(values.empty() ? value_text(parameter)
                                     : parameter.name + " " + value_text(parameter));
   }
-  std::string text = fmt::format("{} {}", cause.label(), fmt::join(values, ", "));
+  std::string text = cause.names_family ? cause.family + ": " : "";
+  text += fmt::format("{} {}", cause.label(), fmt::join(values, ", "));
   if (!cause.confusable_with.empty()) {
     text += fmt::format(", or {}", fmt::join(cause.confusable_with, " or "));
   }

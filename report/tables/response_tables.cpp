@@ -57,9 +57,10 @@ void add_pair(Table& table, const std::string& name, double undamped_Hz,
 
 }  // namespace
 
-std::string response_unit(const arm::Sensor& sensor) {
-  const auto unit = arm::unit(sensor);
-  return unit == "1" ? "1/(N m)" : fmt::format("{}/(N m)", unit);
+std::string response_unit(const arm::Sensor& sensor, const std::optional<arm::Sensor>& input) {
+  const std::string_view per = input ? arm::unit(*input) : "N m";
+  return per == "rad" ? fmt::format("{}/rad", arm::unit(sensor))
+                      : fmt::format("{}/({})", arm::unit(sensor), per);
 }
 
 Table response_poles_table(const response::ResponseStudy& study, std::size_t most) {

@@ -4,13 +4,15 @@
 #include "response/frequency/response_study.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace flexarm::report {
 
 /// "rad/(N m)": the unit of a sensor's response to torque.
-std::string response_unit(const arm::Sensor& sensor);
+/// With an input that is a sensor of the hub: "m/rad".
+std::string response_unit(const arm::Sensor& sensor, const std::optional<arm::Sensor>& input = {});
 
 /// Undamped and damped poles, the lowest (order 0) first, `most` flexible ones; a row for each root
 /// of a real pair; and the poles that lags of actuator and sensors add.

@@ -99,6 +99,7 @@ TEST_F(Diagnose, FindsNothingLeftWithTheExtendedArm) {
   const Ended again = run({"diagnose", "sim/measurement.toml"});
   EXPECT_EQ(again.status, 0) << again.errors;
   EXPECT_THAT(again.output, HasSubstr("Adequate: "));
+  EXPECT_THAT(again.output, Not(HasSubstr("Where it fails")));
 }
 
 TEST_F(Diagnose, WhatCannotBeUsedIsOneLineAndNothingIsWritten) {
@@ -140,6 +141,8 @@ TEST_F(Diagnose, ExcludedEffectsAreNotSearchedForAndListed) {
   EXPECT_EQ(json["search"]["excluded"],
             Json::array({"payload_mass", "sensor_gain on tip_acceleration"}));
   EXPECT_EQ(json["search"]["complete"], true);
+  EXPECT_THAT(ended.output, HasSubstr("Where it fails"));
+  EXPECT_FALSE(json["residual"]["regimes"].empty());
   for (const auto& cause : json["causes"]) EXPECT_NE(cause["effect"], "payload_mass");
   for (const auto& [names, what] : std::vector<std::pair<std::string, std::string>>{
            {"payload_mas", "--exclude payload_mas: unknown effect (did you mean payload_mass?)"},

@@ -192,7 +192,17 @@ TEST_F(Identify, TheHubMotionAsInputGivesPolesWithTheHubHeld) {
               AllOf(HasSubstr("estimator: hub_angle to sensors"), HasSubstr("pole 1, hub held"),
                     HasSubstr("responses to the hub motion")));
   EXPECT_THAT(names_in("out"),
-              AllOf(Contains("held-poles-random.csv"), Not(Contains("frf-random.csv"))));
+              AllOf(Contains("held-poles-random.csv"), Contains("frf-random.csv")));
+  EXPECT_EQ(measured::read_frequency_record(folder_ / "out/frf-random.csv").input,
+            (arm::Sensor{arm::SensorKind::hub_angle, 0.0}));
+  // The simulated arm with another hub: that does not matter to them.
+  write("other-hub.toml", text_of("rig.toml") + "[effects.hub_inertia]\nfactor = 2\n");
+  EXPECT_EQ(
+      run({"import", "out/frf-random.csv", "--arm", "other-hub.toml", "--out", "responses"}).status,
+      0);
+  const Ended diagnosed = run({"diagnose", "responses/measurement.toml", "--time-limit", "30"});
+  EXPECT_EQ(diagnosed.status, 0) << diagnosed.errors;
+  EXPECT_THAT(diagnosed.output, Not(HasSubstr("hub_inertia")));
 }
 
 TEST_F(Identify, AnInputThatCannotBeIsOneLine) {

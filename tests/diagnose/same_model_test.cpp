@@ -64,6 +64,7 @@ TEST(SameModel, IsNamedByBothNamesAndNoneIsLessProbableForIt) {
     ASSERT_EQ(both.causes.size(), 1U) << hidden.first;
     const Cause& cause = cause_named(both, "hub_viscous_friction");
     EXPECT_THAT(cause.confusable_with, testing::ElementsAre("back_emf"));
+    EXPECT_FALSE(cause.names_family);  // one model by two names
     EXPECT_THAT(cause.evidence, testing::Contains(testing::HasSubstr(
                                     "The same model as back_emf: no data distinguish them.")));
     const Cause& before = cause_named(one, "hub_viscous_friction");

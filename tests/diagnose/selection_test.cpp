@@ -1,11 +1,13 @@
 #include "diagnose/search/selection.hpp"
 
+#include "diagnose/search/rivals.hpp"
 #include "effects/registry/vocabulary.hpp"
 #include "measured/spectra/robust.hpp"
 #include "tests/diagnose/simulated_experiments.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -79,6 +81,21 @@ TEST(Selection, DriftOfTheSensorsIsNoCauseAndHidesNone) {
   EXPECT_EQ(made.chosen.fit.candidate.effects[0].effect, "payload_mass");
   EXPECT_NEAR(made.chosen.fit.candidate.values_of(0).front(), 0.02, 0.02 * 0.03);
   EXPECT_TRUE(made.chosen.leaves_noise());
+}
+
+TEST(Selection, ALimitStandsInThePlaceOfWhatContainsIt) {
+  const Experiment experiment = simulated_experiment({}, {.duration_s = 0.5});
+  const auto effects = named(experiment, {"coulomb_friction", "stribeck_friction", "payload_mass"});
+  const auto effect = [&](const std::string& name) {
+    return *std::ranges::find(effects, name, &Hypothesis::effect);
+  };
+  const Candidate mass = Candidate{}.with(effect("payload_mass"), {0.01});
+  const Candidate coulomb = mass.with(effect("coulomb_friction"), {0.02});
+  const Candidate stribeck = mass.with(effect("stribeck_friction"), {0.02, 0.03, 0.1});
+  EXPECT_TRUE(is_limit(coulomb, stribeck));
+  EXPECT_FALSE(is_limit(stribeck, coulomb));
+  EXPECT_FALSE(is_limit(coulomb, coulomb));
+  EXPECT_FALSE(is_limit(Candidate{}.with(effect("coulomb_friction"), {0.02}), stribeck));
 }
 
 TEST(Selection, IsCancelledByTheProgress) {

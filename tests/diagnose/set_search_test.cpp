@@ -12,6 +12,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace flexarm::diagnose {
@@ -64,6 +65,20 @@ TEST_F(RankedTest, LinesOfACosineAreOneLine) {
   const VectorXd lines = likelihood_.lines(residuals);
   EXPECT_NEAR(lines(channel.first + kLine), std::sqrt(n / 2.0), 1e-9 * n);
   EXPECT_NEAR(lines.norm(), std::sqrt(n / 2.0), 1e-9 * n);
+}
+
+TEST_F(RankedTest, APeakIsTheLineWithMostOfItsOctave) {
+  const ObservedChannel& channel = problem_.observations().channels.front();
+  VectorXd lines = VectorXd::Ones(problem_.residual_count());
+  lines(channel.first + 10) = 20.0;
+  lines(channel.first + 100) = 15.0;
+  const auto& record = std::get<measured::TimeRecord>(experiment_.runs[channel.run].data);
+  const double line_Hz =
+      0.5 / (measured::sampling_period_s(record) * static_cast<double>(channel.count));
+  const std::vector<double> peaks_Hz = likelihood_.peaks_Hz(lines, 2);
+  ASSERT_EQ(peaks_Hz.size(), 2u);
+  EXPECT_NEAR(peaks_Hz[0] / line_Hz, 10.0, 1e-9);
+  EXPECT_NEAR(peaks_Hz[1] / line_Hz, 100.0, 1e-9);
 }
 
 TEST_F(RankedTest, WeightsAreTheDerivativesOfTheCost) {
@@ -220,6 +235,26 @@ TEST(SetSearch, FindsTheShapeOfAnEffectThatSeveralSimpleOnesImitate) {
   const Candidate& best = sets.best.front().candidate;
   ASSERT_EQ(best.label(), "tuned_mass");
   EXPECT_NEAR(best.values[1], 30.0, 1.0);
+}
+
+TEST(SetSearch, FindsTheFrequencyOfATorqueBesideResonances) {
+  const Experiment experiment = simulated_experiment(
+      {effects::named("disturbance_torque",
+                      {{"amplitude", 0.01}, {"frequency", 17.3}, {"phase", 1.1}})},
+      {.duration_s = 2.0});
+  const Problem problem(experiment);
+  const Likelihood likelihood(problem, problem.estimation_runs());
+  ReportedWork work({});
+  // From the arm as filed, and from a frequency that is another one's minimum.
+  const auto hypotheses = named(experiment, {"disturbance_torque"});
+  const std::vector<Candidate> starts = {
+      problem.as_filed().with(hypotheses.front(), {0.005, 11.9, 3.0})};
+  for (const SetSearchOptions& options : {SetSearchOptions{}, SetSearchOptions{.starts = starts}}) {
+    const FoundSets found = search_sets(likelihood, hypotheses, options, work);
+    const Candidate& best = found.best.front().candidate;
+    ASSERT_EQ(best.effects.size(), 1u);
+    EXPECT_NEAR(best.values_of(0)[1], 17.3, 0.02);  // a twentieth of what 2 s resolve
+  }
 }
 
 TEST(SetSearch, FindsNothingWhereNothingIsHidden) {

@@ -46,6 +46,30 @@ TEST(FrequencyRecord, ColumnsAndRowsStandInAnyOrder) {
       (FrequencyChannel{kStrain, {7.0, 8.0}, {{1.0, 2.0}, {5.0, 6.0}}, {kUnknown, kUnknown}}));
 }
 
+TEST(FrequencyRecord, AnInputIsTheMotionOfTheHub) {
+  const std::string head = "frequency [Hz],sensor,re,im,coherence,input\n";
+  const auto record = parse_frequency_record(
+      head + "1,tip_deflection,1,2,,hub_angle\n2,tip_deflection,3,4,1,hub_angle\n", "f");
+  EXPECT_EQ(record.input, kHubAngle);
+  EXPECT_EQ(format_frequency_record(record),
+            head + "1,tip_deflection,1,2,,hub_angle\n2,tip_deflection,3,4,1,hub_angle\n");
+  EXPECT_EQ(parse_frequency_record(head + "1,hub_angle,1,2,,torque\n", "f").input, std::nullopt);
+  const auto error_of = [&](const std::string& rows) -> std::string {
+    try {
+      parse_frequency_record(head + rows, "f");
+    } catch (const arm::InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(error_of("1,hub_angle,1,2,,tip_deflection\n"),
+            "f:2: input = tip_deflection: must be torque, hub_angle or hub_velocity");
+  EXPECT_EQ(error_of("1,tip_deflection,1,2,,hub_angle\n2,tip_deflection,1,2,,torque\n"),
+            "f:3: input = torque: must be that of the rows before");
+  EXPECT_EQ(error_of("1,hub_angle,1,2,,hub_angle\n"),
+            "f:2: hub_angle: is the input; must be another sensor");
+}
+
 TEST(FrequencyRecord, WhatIsUnknownIsEqualToWhatIsUnknownAlone) {
   const FrequencyChannel unknown{kHubAngle, {1.0}, {1.0}, {kUnknown}};
   const FrequencyChannel known{kHubAngle, {1.0}, {1.0}, {0.5}};
@@ -112,10 +136,10 @@ const std::vector<Mistake> kFrequencyRecordMistakes = {
      "1: cells must be separated by commas, and numbers have a decimal point"},
     {"UnitMissing", "frequency,sensor,re,im\n",
      "1: column frequency: unknown (did you mean frequency [Hz]?); allowed: frequency [Hz], "
-     "sensor, re, im, coherence"},
+     "sensor, re, im, coherence, input"},
     {"ColumnMisspelt", "frequency [Hz],sensor,re,im,coherense\n",
      "1: column coherense: unknown (did you mean coherence?); allowed: frequency [Hz], sensor, re, "
-     "im, coherence"},
+     "im, coherence, input"},
     {"ColumnMissing", "frequency [Hz],sensor,re\n",
      "1: column im: missing; the header is frequency [Hz],sensor,re,im,coherence"},
     {"ColumnTwice", "re,re\n", "1: column re: given twice"},

@@ -162,6 +162,17 @@ class Runs(unittest.TestCase):
             call = lambda: flexarm.FrequencyRun(frequency_Hz=response.frequency_Hz, **columns)
             self.assertIn(part, refusal(self, call))
 
+    def test_frequency_responses_from_the_motion_of_the_hub(self):
+        responses = {"tip_displacement_m_per_rad": [1.0 + 0j, 2.0], "frequency_Hz": [1.0, 2.0]}
+        run = flexarm.FrequencyRun(responses, input="hub_angle")
+        self.assertEqual(run.input, "hub_angle")
+        frame = run.to_pandas().drop(columns="tip_displacement_coherence")
+        self.assertEqual(flexarm.FrequencyRun(frame, input="hub_angle"), run)
+        for given, part in (("tip_deflection", "input = tip_deflection: must be torque"),
+                            ("torque", "tip_displacement_m_per_rad: must be frequency_Hz")):
+            call = lambda: flexarm.FrequencyRun(responses, input=given)
+            self.assertIn(part, refusal(self, call))
+
     def test_modal_tables_of_dicts_and_frames(self):
         rows = [
             {"feature": "pole", "order": 1, "frequency_Hz": 11.9, "damping_ratio": 0.01},

@@ -177,8 +177,18 @@ std::string Hypothesis::unit_of(const SearchedParameter& parameter) const {
                           sensor);
 }
 
+/// Returns whether the arm file states dissipation of the beam.
+bool states_dissipation(const arm::Arm& arm) {
+  return arm.damping.kelvin_voigt_s > 0.0 || std::ranges::any_of(arm.effects, [](const auto& one) {
+           const effects::Entry* entry = effects::find(one.first);
+           return entry != nullptr && entry->family == effects::Family::beam_dissipation;
+         });
+}
+
 std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
   const Scales scales = scales_of(experiment);
+  const bool lacks_dissipation =
+      arm::has_beam(experiment.arm) && !states_dissipation(experiment.arm);
   std::vector<Hypothesis> all;
   for (const effects::Entry& entry : effects::entries()) {
     const std::string& name = entry.definition->name;
@@ -188,6 +198,8 @@ std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
     const auto add = [&](const Scales& its_scales, const std::string& sensor) {
       if (entry.applies && !entry.applies(its_scales)) return;
       all.push_back({of_library, name, sensor, entry.search(its_scales)});
+      all.back().is_family_certain =
+          lacks_dissipation && entry.family == effects::Family::beam_dissipation;
     };
     const auto shown_in = [&](const measured::MeasuredRun& run) {
       return Hypothesis{of_library, name}.shows_in(run.run.kind);

@@ -30,6 +30,9 @@ struct Hypothesis {
   std::map<std::string, double> known = {};  ///< of its other parameters
   /// Effects that are the same model, for which this one stands (`distinct`).
   std::vector<std::string> other_names = {};
+  /// Whether the arm has an effect of its family for certain: a beam whose file states no
+  /// dissipation has some.
+  bool is_family_certain = false;
 
   /// "sensor_lag on tip_acceleration".
   std::string label() const;

@@ -185,9 +185,12 @@ double price(const Hypothesis& effect, std::span<const Hypothesis> others) {
       !is_single && std::ranges::any_of(others, [family](const Hypothesis& other) {
         return other.entry->family == family;
       });
-  const double probability =
-      effects::probability_of(effect.entry->prior) *
-      (is_other_form ? effects::probability_of(effects::Likely::possible) : 1.0);
+  double probability = effects::probability_of(effect.entry->prior);
+  if (is_other_form) {
+    probability *= effects::probability_of(effects::Likely::possible);
+  } else if (effect.is_family_certain) {
+    probability /= effects::probability_of(effects::Likely::common);
+  }
   return -2.0 * std::log(probability);
 }
 

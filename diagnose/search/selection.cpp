@@ -26,6 +26,10 @@ namespace {
 /// reported.
 constexpr double kReported = 9.0;
 
+/// Evidence of an effect, as a difference of scores, that is "not worth more than a bare mention"
+/// [KassRaftery1995].
+constexpr double kBareMention = 2.0;
+
 /// Returns the fit of `best` without each of its effects.
 std::vector<ScoredFit> without_each(const Likelihood& likelihood, const ScoredFit& best,
                                     const ReportedWork& work) {
@@ -43,29 +47,30 @@ struct SetWithoutEach {
   std::vector<ScoredFit> without;
 };
 
-/// Returns a set from which no effect can be dropped without posterior odds of more than
-/// kIndistinguishableOdds against it beside the best of `sets`, which are in order, or without
-/// leaving more than noise where that does not. An effect gives place to a limit of it in the same
-/// way, in a set that was fitted.
+/// Returns the best of `sets`, which are in order, made simpler. An effect gives place to a limit
+/// of it, in a set that was fitted, at posterior odds of kIndistinguishableOdds or less against
+/// that, and is dropped where the set without it has a score that is higher by kBareMention or
+/// less. Where the best set leaves noise so does the simpler one.
 SetWithoutEach simplest_of(const Likelihood& likelihood, const std::vector<ScoredFit>& sets,
                            const ReportedWork& work) {
   ScoredFit simplest = sets.front();
   const double highest = simplest.score + 2.0 * std::log(kIndistinguishableOdds);
   const bool leaves_noise = likelihood.is_noise(simplest.lines);
-  const auto does_as_well = [&](const ScoredFit& one) {
-    return one.score <= highest && (!leaves_noise || likelihood.is_noise(one.lines));
+  const auto does_as_well = [&](const ScoredFit& one, double most) {
+    return one.score <= most && (!leaves_noise || likelihood.is_noise(one.lines));
   };
   for (const ScoredFit& other : sets) {
-    if (!is_limit(other.candidate, simplest.candidate) || !does_as_well(other)) continue;
+    if (!is_limit(other.candidate, simplest.candidate) || !does_as_well(other, highest)) continue;
     simplest = scored_fit(likelihood, other.candidate, work);
   }
   while (true) {
     std::vector<ScoredFit> without = without_each(likelihood, simplest, work);
+    const double most = simplest.score + kBareMention;
     const auto score = [&](const ScoredFit& one) {
-      return does_as_well(one) ? one.score : std::numeric_limits<double>::infinity();
+      return does_as_well(one, most) ? one.score : std::numeric_limits<double>::infinity();
     };
     const auto weakest = std::ranges::min_element(without, {}, score);
-    if (weakest == without.end() || !does_as_well(*weakest)) return {simplest, without};
+    if (weakest == without.end() || !does_as_well(*weakest, most)) return {simplest, without};
     simplest = scored_fit(likelihood, weakest->candidate, work);
   }
 }

@@ -299,7 +299,7 @@ std::vector<RegimeError> left_without(const arm::Effects& hidden) {
     run.purpose = measured::Purpose::estimation;
     run.torque_hold = measured::TorqueHold::zero;
   }
-  const Diagnosis made = diagnose(experiment, named(experiment, {"hub_inertia", "time_delay"}));
+  const Diagnosis made = diagnose(experiment, named(experiment, {"time_delay"}));
   EXPECT_EQ(made.verdict, Verdict::unexplained);
   auto regimes = made.symptoms.regimes;
   std::erase_if(regimes,

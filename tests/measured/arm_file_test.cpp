@@ -226,6 +226,7 @@ class ArmGenerator {
       if (definition->name == "gauge_position") value = beam.length_m * 0.25;
       // Bounded by numbers of the beam that other effects change.
       if (definition->name == "air_damping" || definition->name == "quadratic_drag") value = 0.0;
+      if (definition->name == "load_friction" && parameter.name == "factor") value = 0.25;
       if (definition->name == "stribeck_friction" && parameter.name == "static_torque") {
         value = std::max(value, effect.parameters.at("torque"));
       }

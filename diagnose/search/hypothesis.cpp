@@ -52,31 +52,39 @@ double range_of(std::vector<double> values) {
   return most - least;
 }
 
-/// Returns the sum of the squares of the hub's velocity over the samples of a run, by a sensor of
-/// its velocity, or by the slope of its angle over so many samples that the counts of an encoder
-/// show little; empty where none shows the hub.
-std::optional<double> speed_squares_of(const measured::TimeRecord& record) {
+/// Returns the mean square of the velocity that a sensor of the hub shows: of its readings, or of
+/// the slope of its angle over so many samples that the counts of an encoder show little. Readings
+/// that are left out do not count; empty without others.
+std::optional<double> mean_square_speed(const measured::Channel& channel, double period_s) {
   constexpr std::size_t kSlopeSamples = 10;
-  const auto by_kind = [&](arm::SensorKind kind) {
-    return std::ranges::find_if(record.channels, [kind](const measured::Channel& channel) {
-      return channel.sensor.kind == kind;
-    });
-  };
+  const std::vector<double>& values = channel.values;
+  const bool is_angle = channel.sensor.kind == arm::SensorKind::hub_angle;
+  const std::size_t lag = is_angle ? kSlopeSamples : 0;
+  std::vector<bool> counts(values.size(), true);
+  for (const std::size_t k : channel.left_out) counts[k] = false;
   double sum = 0.0;
-  if (const auto velocity = by_kind(arm::SensorKind::hub_velocity);
-      velocity != record.channels.end()) {
-    for (const double one : velocity->values) sum += one * one;
-    return sum;
+  double samples = 0.0;
+  for (std::size_t k = lag; k < values.size(); ++k) {
+    if (!counts[k] || !counts[k - lag]) continue;
+    const double speed = is_angle
+                             ? (values[k] - values[k - lag]) / (static_cast<double>(lag) * period_s)
+                             : values[k];
+    sum += speed * speed;
+    samples += 1.0;
   }
-  const auto angle = by_kind(arm::SensorKind::hub_angle);
-  if (angle == record.channels.end() || angle->values.size() <= kSlopeSamples) return std::nullopt;
-  const std::vector<double>& values = angle->values;
-  const double step_s = static_cast<double>(kSlopeSamples) * measured::sampling_period_s(record);
-  for (std::size_t k = kSlopeSamples; k < values.size(); ++k) {
-    sum += std::pow((values[k] - values[k - kSlopeSamples]) / step_s, 2);
+  if (samples == 0.0) return std::nullopt;
+  return sum / samples;
+}
+
+/// Returns mean_square_speed of a run by a sensor of the hub, its velocity before its angle.
+std::optional<double> mean_square_speed(const measured::TimeRecord& record) {
+  for (const auto kind : {arm::SensorKind::hub_velocity, arm::SensorKind::hub_angle}) {
+    for (const measured::Channel& channel : record.channels) {
+      if (channel.sensor.kind != kind) continue;
+      return mean_square_speed(channel, measured::sampling_period_s(record));
+    }
   }
-  const auto slopes = static_cast<double>(values.size() - kSlopeSamples);
-  return sum / slopes * static_cast<double>(values.size());
+  return std::nullopt;
 }
 
 void add_unknown(std::vector<arm::Sensor>& sensors, const arm::Sensor& sensor) {
@@ -299,9 +307,10 @@ Scales scales_of(const Experiment& experiment) {
         scales.torque_peak_N_m = std::max(scales.torque_peak_N_m, std::abs(torque));
       }
       samples += static_cast<double>(record->torque_N_m.size());
-      if (const auto speeds = speed_squares_of(*record)) {
-        measured_squares += *speeds;
-        measured_samples += static_cast<double>(record->time_s.size());
+      if (const auto mean_square = mean_square_speed(*record)) {
+        const auto count = static_cast<double>(record->time_s.size());
+        measured_squares += *mean_square * count;
+        measured_samples += count;
       }
       for (const auto& channel : record->channels) {
         add_unknown(scales.sensors, channel.sensor);

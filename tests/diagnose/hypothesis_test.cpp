@@ -12,6 +12,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <variant>
 
 namespace flexarm::diagnose {
 namespace {
@@ -87,6 +88,45 @@ TEST(Hypotheses, ExtendTheArmToAValidOneOverTheirWholeRange) {
       EXPECT_NO_THROW(arm::require_valid(arm)) << hypothesis.label() << " at " << place;
     }
   }
+}
+
+TEST(Hypotheses, AreScaledByTheMeasuredVelocityOfTheHub) {
+  Experiment experiment = short_experiment();
+  const auto velocity_of = [&](const arm::SensorKind kind) {
+    for (auto& run : experiment.runs) {
+      auto& record = std::get<measured::TimeRecord>(run.data);
+      std::erase_if(record.channels, [](const measured::Channel& channel) {
+        return arm::is_collocated(channel.sensor);
+      });
+      measured::Channel hub{{kind, 0.0}, {}};
+      for (const double time_s : record.time_s) {
+        hub.values.push_back(kind == arm::SensorKind::hub_angle ? 3.0 * time_s : 3.0);
+      }
+      hub.values[5] = 1e9;  // an outlier
+      hub.left_out = {5};
+      record.channels.push_back(hub);
+    }
+    return scales_of(experiment).speed_rms_rad_per_s;
+  };
+  // Rounding of differences of times.
+  EXPECT_NEAR(velocity_of(arm::SensorKind::hub_angle), 3.0, 1e-9);
+  EXPECT_NEAR(velocity_of(arm::SensorKind::hub_velocity), 3.0, 1e-9);
+}
+
+TEST(Hypotheses, OfDissipationAreCertainWhereTheFileStatesNone) {
+  Experiment experiment = short_experiment();
+  const auto is_certain = [&] {
+    for (const Hypothesis& one : hypotheses(experiment)) {
+      if (one.effect == "air_damping") return one.is_family_certain;
+    }
+    return false;
+  };
+  experiment.arm.damping.kelvin_voigt_s = 1e-4;
+  EXPECT_FALSE(is_certain());
+  experiment.arm.damping.kelvin_voigt_s = 0.0;
+  EXPECT_TRUE(is_certain());
+  experiment.arm.effects = {effects::named("structural_damping", {{"time", 1e-4}})};
+  EXPECT_FALSE(is_certain());
 }
 
 TEST(Hypotheses, LeaveOutWhatTheArmHasAlready) {

@@ -131,12 +131,6 @@ std::string restrictions_text(const diagnose::Diagnosis& diagnosis) {
   return text.empty() ? text : text + "\n";
 }
 
-/// Whether effects do not explain the residuals.
-bool is_open(const diagnose::Diagnosis& diagnosis) {
-  return diagnosis.verdict == diagnose::Verdict::partly_explained ||
-         diagnosis.verdict == diagnose::Verdict::unexplained;
-}
-
 std::string evidence_text(const diagnose::Diagnosis& diagnosis) {
   std::string text;
   for (const auto& cause : diagnosis.causes) {
@@ -155,13 +149,13 @@ std::string text_of(const diagnose::Diagnosis& diagnosis, bool verbose) {
   if (verbose) text += evidence_text(diagnosis);
   const std::string predictor = report::predictor_text(diagnosis);
   if (!predictor.empty()) text += screen_paragraph(predictor) + "\n";
-  if (verbose || is_open(diagnosis)) {
+  if (verbose || is_open(diagnosis.verdict)) {
     const std::string wrong =
         report::what_is_wrong_text(diagnosis.symptoms, verbose ? kAllRows : kFindingLines,
                                    std::min(screen_width(), report::kWidestText));
     if (!wrong.empty()) text += wrong + "\n";
   }
-  if (is_open(diagnosis)) {
+  if (is_open(diagnosis.verdict)) {
     text += screen_rows(report::where_it_fails_table(diagnosis.symptoms),
                         verbose ? kAllRows : kRegimeRows, "--verbose", 4);
   }

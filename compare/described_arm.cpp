@@ -40,22 +40,9 @@ effects::Scales scales_of(const arm::Arm& arm, std::span<const double> torque_N_
   scales.beam = arm::linear_arm(arm);
   scales.has_payload_mass = arm.payload.mass_kg > 0.0;
   scales.shortest_time_s = 0.5 * period_s;
-  const double inertia_kg_m2 = arm::total_inertia_kg_m2(scales.beam);
-  double speed = 0.0;
-  double squares = 0.0;
-  double speed_squares = 0.0;
-  for (const double torque : torque_N_m) {
-    speed += torque * period_s / inertia_kg_m2;
-    squares += torque * torque;
-    speed_squares += speed * speed;
-    scales.torque_peak_N_m = std::max(scales.torque_peak_N_m, std::abs(torque));
-  }
-  const auto samples = static_cast<double>(torque_N_m.size());
-  scales.torque_rms_N_m = std::sqrt(squares / samples);
-  std::vector<double> sizes_N_m;
-  for (const double torque : torque_N_m) sizes_N_m.push_back(std::abs(torque));
-  scales.torque_low_N_m = effects::low_torque_N_m(std::move(sizes_N_m));
-  scales.speed_rms_rad_per_s = std::sqrt(speed_squares / samples);
+  effects::TorqueScales torques;
+  torques.add(torque_N_m, period_s, arm::total_inertia_kg_m2(scales.beam));
+  torques.put(scales);
   return scales;
 }
 

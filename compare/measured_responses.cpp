@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -94,13 +93,9 @@ std::vector<MeasuredResponse> responses_beside_models(const arm::Arm& arm, const
       std::vector<arm::Sensor> sensors = {each.measured.sensor};
       if (record.input) sensors.push_back(*record.input);
       const auto response_at = [&](const std::vector<double>& frequency_Hz) {
-        auto made =
-            response::frequency_response(subject.formulation, chain, sensors, frequency_Hz).values;
-        if (record.input) {
-          // Both per torque: the ratio is that to the input.
-          std::ranges::transform(made.front(), made.back(), made.front().begin(), std::divides());
-        }
-        return std::move(made.front());
+        auto made = response::frequency_response(subject.formulation, chain, sensors, frequency_Hz);
+        if (record.input) made = response::per_last_sensor(std::move(made));
+        return std::move(made.values.front());
       };
       auto response = response_at(each.measured.frequency_Hz);
       add_errors(response, each);

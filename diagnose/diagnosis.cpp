@@ -254,8 +254,6 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.evaluations = selection.chosen.fit.evaluations;
   arm::Arm arm_of_effects = chosen.extend(problem.experiment().arm);
   arm_of_effects.relative_uncertainties = experiment.arm.relative_uncertainties;
-  const bool is_open =
-      made.verdict == Verdict::unexplained || made.verdict == Verdict::partly_explained;
   const Deadline last = options.deadline ? *options.deadline + kReportTime : options.deadline;
   std::vector<std::string> left_out;
   const auto in_time = [&](const char* what, const auto& step) {
@@ -266,7 +264,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
       left_out.emplace_back(what);
     }
   };
-  if (predicted.balance && is_open) {
+  if (predicted.balance && is_open(made.verdict)) {
     in_time("a law of the hub torque",
             [&] { made.empirical_law = predicted.law_beside_causes(last); });
   }
@@ -313,7 +311,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
     sort_by_significance(statements);
   }
   made.refitted = refitted_numbers(problem.experiment().arm, chosen.nuisances, errors);
-  if (is_open) {
+  if (is_open(made.verdict)) {
     in_time("the place of the missing force", [&] {
       made.missing_force = missing_force(problem, arm_of_effects, errors_of_effects, last);
     });
@@ -326,7 +324,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   made.posterior = posterior_sets(predicted, options, last);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors, last);
-  if (is_open) {
+  if (is_open(made.verdict)) {
     in_time("the near misses", [&] { made.near_misses = near_misses(predicted, posterior, last); });
   }
   ReportedWork work(progress, options.deadline);

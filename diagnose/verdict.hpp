@@ -17,6 +17,11 @@ enum class SearchState { complete, incomplete };
 /// "adequate", "explained", "partly_explained", "unexplained".
 std::string_view to_string(Verdict verdict);
 
+/// Returns whether something is left to be explained.
+constexpr bool is_open(Verdict verdict) {
+  return verdict == Verdict::partly_explained || verdict == Verdict::unexplained;
+}
+
 /// An uncertain number that is refitted by more standard deviations than this is implausible:
 /// something else is wrong.
 inline constexpr double kPlausibleDeviation = 3.0;

@@ -19,7 +19,7 @@ Entry gravity() {
                    }}),
           .shows = Shows::in_all,
           .search = [](const Scales& /*scales*/) -> std::vector<SearchedParameter> {
-            // That of the earth, hanging or upright, and a tenth for masses that are off.
+            // The earth's, hanging or upright, and a tenth for masses that are off.
             constexpr double kMost_m_per_s2 = 1.1 * 9.81;
             return {{.name = "acceleration",
                      .lowest = -kMost_m_per_s2,

@@ -41,15 +41,11 @@ void predict(const arm::Arm& arm, std::size_t run, const measured::FrequencyReco
     });
     std::vector<arm::Sensor> sensors;
     for (auto channel = first; channel != last; ++channel) sensors.push_back(channel->sensor);
-    const std::size_t outputs = sensors.size();
     if (record.input) sensors.push_back(*record.input);
-    const auto made =
-        response::with_chain(*responses.of(run, arm, sensors, first->frequency_Hz), chain);
-    for (std::size_t j = 0; j < outputs; ++j) {
-      for (std::size_t k = 0; k < first->frequency_Hz.size(); ++k) {
-        // Both per torque: the ratio is that to the input, whatever acts on the hub.
-        const auto value =
-            record.input ? made.values[j][k] / made.values.back()[k] : made.values[j][k];
+    auto made = response::with_chain(*responses.of(run, arm, sensors, first->frequency_Hz), chain);
+    if (record.input) made = response::per_last_sensor(std::move(made));
+    for (const auto& of_sensor : made.values) {
+      for (const auto& value : of_sensor) {
         values(at++) = value.real();
         values(at++) = value.imag();
       }

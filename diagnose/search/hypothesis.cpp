@@ -87,6 +87,14 @@ std::optional<double> mean_square_speed(const measured::TimeRecord& record) {
   return std::nullopt;
 }
 
+/// Returns whether the arm file states dissipation of the beam.
+bool states_dissipation(const arm::Arm& arm) {
+  return arm.damping.kelvin_voigt_s > 0.0 || std::ranges::any_of(arm.effects, [](const auto& one) {
+           const effects::Entry* entry = effects::find(one.first);
+           return entry != nullptr && entry->family == effects::Family::beam_dissipation;
+         });
+}
+
 void add_unknown(std::vector<arm::Sensor>& sensors, const arm::Sensor& sensor) {
   if (std::ranges::find(sensors, sensor) == sensors.end()) sensors.push_back(sensor);
 }
@@ -185,14 +193,6 @@ std::string Hypothesis::unit_of(const SearchedParameter& parameter) const {
                           sensor);
 }
 
-/// Returns whether the arm file states dissipation of the beam.
-bool states_dissipation(const arm::Arm& arm) {
-  return arm.damping.kelvin_voigt_s > 0.0 || std::ranges::any_of(arm.effects, [](const auto& one) {
-           const effects::Entry* entry = effects::find(one.first);
-           return entry != nullptr && entry->family == effects::Family::beam_dissipation;
-         });
-}
-
 std::vector<Hypothesis> hypotheses(const Experiment& experiment) {
   const Scales scales = scales_of(experiment);
   const bool lacks_dissipation =
@@ -283,10 +283,7 @@ Scales scales_of(const Experiment& experiment) {
   scales.arm = experiment.arm;
   scales.beam = arm::linear_arm(experiment.arm);
   if (!arm::has_beam(experiment.arm)) scales.beam = beam_beside(scales.beam, experiment);
-  double squares = 0.0;
-  double samples = 0.0;
-  std::vector<double> sizes_N_m;
-  double speed_squares = 0.0;     // of a rigid arm
+  effects::TorqueScales torques;
   double measured_squares = 0.0;  // of the hub, in the runs that show it
   double measured_samples = 0.0;
   double highest_Hz = 0.0;
@@ -298,15 +295,7 @@ Scales scales_of(const Experiment& experiment) {
       const double step = measured::sampling_period_s(*record);
       const double inertia = arm::total_inertia_kg_m2(arm_in(experiment, run));
       period_s = period_s > 0.0 ? std::min(period_s, step) : step;
-      double speed = 0.0;
-      for (const double torque : record->torque_N_m) {
-        sizes_N_m.push_back(std::abs(torque));
-        squares += torque * torque;
-        speed += torque * step / inertia;
-        speed_squares += speed * speed;
-        scales.torque_peak_N_m = std::max(scales.torque_peak_N_m, std::abs(torque));
-      }
-      samples += static_cast<double>(record->torque_N_m.size());
+      torques.add(record->torque_N_m, step, inertia);
       if (const auto mean_square = mean_square_speed(*record)) {
         const auto count = static_cast<double>(record->time_s.size());
         measured_squares += *mean_square * count;
@@ -324,12 +313,11 @@ Scales scales_of(const Experiment& experiment) {
       }
     }
   }
-  if (samples > 0.0) {
-    scales.torque_rms_N_m = std::sqrt(squares / samples);
-    scales.torque_low_N_m = effects::low_torque_N_m(std::move(sizes_N_m));
-    scales.speed_rms_rad_per_s = measured_squares > 0.0
-                                     ? std::sqrt(measured_squares / measured_samples)
-                                     : std::sqrt(speed_squares / samples);
+  if (period_s > 0.0) {
+    torques.put(scales);
+    if (measured_squares > 0.0) {
+      scales.speed_rms_rad_per_s = std::sqrt(measured_squares / measured_samples);
+    }
     scales.shortest_time_s = 0.5 * period_s;
   } else if (highest_Hz > 0.0) {
     scales.shortest_time_s = 1.0 / (20.0 * highest_Hz);

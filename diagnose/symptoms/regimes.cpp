@@ -10,8 +10,10 @@
 #include "measured/spectra/tail_probability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -27,6 +29,7 @@ using SampleValues = std::vector<double>;
 struct JudgedRun {
   std::size_t run = 0;  ///< index of Experiment::runs
   const measured::TimeRecord* record = nullptr;
+  std::optional<HubMotion> motion = {};  ///< empty where the run does not show it
   std::vector<RelativeSquares> samples = {};
 };
 
@@ -80,7 +83,8 @@ std::vector<JudgedRun> judged_time_runs(const SymptomsInput& input) {
   for (std::size_t r = 0; r < experiment.runs.size(); ++r) {
     const auto* record = std::get_if<measured::TimeRecord>(&experiment.runs[r].data);
     if (record == nullptr || !input.problem.judged_runs()[r]) continue;
-    JudgedRun& judged = made.emplace_back(JudgedRun{.run = r, .record = record});
+    JudgedRun& judged = made.emplace_back(
+        JudgedRun{.run = r, .record = record, .motion = hub_motion(input.problem, r)});
     judged.samples.resize(record->time_s.size());
     for (const ObservedChannel& channel : input.problem.observations().channels) {
       if (channel.run == r) add_channel(input, channel, judged);
@@ -104,12 +108,9 @@ SampleValues values_in(const SymptomsInput& input, const JudgedRun& judged,
       // The torque is no input of an arm that is driven by motion.
       return is_driven_by_motion(experiment) ? SampleValues() : sizes(record.torque_N_m);
     case RegimeQuantity::hub_velocity:
-    case RegimeQuantity::hub_angle: {
-      auto motion = hub_motion(input.problem, judged.run);
-      if (!motion) return {};
-      return quantity == RegimeQuantity::hub_angle ? std::move(motion->angle_rad)
-                                                   : sizes(std::move(motion->velocity_rad_per_s));
-    }
+      return judged.motion ? sizes(judged.motion->velocity_rad_per_s) : SampleValues();
+    case RegimeQuantity::hub_angle:
+      return judged.motion ? judged.motion->angle_rad : SampleValues();
     case RegimeQuantity::time: {
       SampleValues since_begin_s = record.time_s;
       for (double& time_s : since_begin_s) time_s -= record.time_s.front();
@@ -194,8 +195,8 @@ RegimeError regime_error(RegimeQuantity quantity, const RegimeBounds& bounds,
 
 /// Powers of a band of frequency, sums over channels.
 struct BandSums {
-  /// What the channels of one run have in the band, and how many independent numbers one of them
-  /// has.
+  /// The power that the channels of one run have in the band, and how many independent numbers one
+  /// of them has.
   struct RunPower {
     double power = 0.0;
     double freedom = 0.0;
@@ -297,39 +298,14 @@ std::vector<RegimeError> frequency_regimes(const SymptomsInput& input,
 }  // namespace
 
 std::string_view to_string(RegimeQuantity quantity) {
-  switch (quantity) {
-    case RegimeQuantity::frequency:
-      return "frequency";
-    case RegimeQuantity::torque:
-      return "torque";
-    case RegimeQuantity::hub_velocity:
-      return "hub_velocity";
-    case RegimeQuantity::hub_angle:
-      return "hub_angle";
-    case RegimeQuantity::time:
-      return "time";
-    case RegimeQuantity::payload:
-      return "payload";
-  }
-  return "";
+  constexpr std::array<std::string_view, 6> kNames = {"frequency", "torque", "hub_velocity",
+                                                      "hub_angle", "time",   "payload"};
+  return kNames.at(static_cast<std::size_t>(quantity));
 }
 
 std::string_view unit_of(RegimeQuantity quantity) {
-  switch (quantity) {
-    case RegimeQuantity::frequency:
-      return "Hz";
-    case RegimeQuantity::torque:
-      return "N m";
-    case RegimeQuantity::hub_velocity:
-      return "rad/s";
-    case RegimeQuantity::hub_angle:
-      return "rad";
-    case RegimeQuantity::time:
-      return "s";
-    case RegimeQuantity::payload:
-      return "kg";
-  }
-  return "";
+  constexpr std::array<std::string_view, 6> kUnits = {"Hz", "N m", "rad/s", "rad", "s", "kg"};
+  return kUnits.at(static_cast<std::size_t>(quantity));
 }
 
 bool RegimeError::is_significant() const {

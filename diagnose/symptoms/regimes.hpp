@@ -43,15 +43,15 @@ struct RegimeError {
   /// The mean square of the residual after over that outside of the regime, a reading or a spectral
   /// line.
   double ratio = 1.0;
-  /// The same of the innovations of the residual, which are the errors of its prediction from the
+  /// The ratio of the innovations of the residual, which are the errors of its prediction from the
   /// samples before by an autoregression of each channel. An error that arises here goes on in a
   /// simulation, and makes the residual large elsewhere; its innovations are here. Each channel's
   /// are scaled to the mean square of its residual, and compared with others of the run. Empty for
   /// frequency bands and payloads.
   std::optional<double> innovation_ratio = {};
-  /// That residual and innovations after are no larger than outside, or that the residual is noise:
-  /// the larger p-value of these two hypotheses, after Bonferroni over all regimes of the table and
-  /// over residual and innovations. Noise: `noise_probability`.
+  /// The larger p-value of two hypotheses: residual and innovations after are no larger than
+  /// outside, or the residual is noise; after Bonferroni over all regimes of the table and over
+  /// residual and innovations. Noise: `noise_probability`.
   ///
   /// Larger than outside: the logarithm of the ratio by its standard error, the delete-one
   /// jackknife over consecutive blocks of the runs, kErrorBlocks of them in all or one a run; of

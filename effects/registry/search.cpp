@@ -38,12 +38,28 @@ struct SinhRange {
 
 }  // namespace
 
-double low_torque_N_m(std::vector<double> sizes_N_m) {
-  std::erase(sizes_N_m, 0.0);
-  if (sizes_N_m.empty()) return 0.0;
-  const auto tenth = sizes_N_m.begin() + std::ssize(sizes_N_m) / 10;
-  std::ranges::nth_element(sizes_N_m, tenth);
-  return *tenth;
+void TorqueScales::add(std::span<const double> torque_N_m, double period_s, double inertia_kg_m2) {
+  double speed_rad_per_s = 0.0;
+  for (const double torque : torque_N_m) {
+    sizes_N_m_.push_back(std::abs(torque));
+    squares_ += torque * torque;
+    speed_rad_per_s += torque * period_s / inertia_kg_m2;
+    speed_squares_ += speed_rad_per_s * speed_rad_per_s;
+  }
+}
+
+void TorqueScales::put(Scales& scales) const {
+  if (sizes_N_m_.empty()) return;
+  const auto samples = static_cast<double>(sizes_N_m_.size());
+  scales.torque_rms_N_m = std::sqrt(squares_ / samples);
+  scales.torque_peak_N_m = std::ranges::max(sizes_N_m_);
+  scales.speed_rms_rad_per_s = std::sqrt(speed_squares_ / samples);
+  std::vector<double> acting_N_m = sizes_N_m_;
+  std::erase(acting_N_m, 0.0);
+  if (acting_N_m.empty()) return;
+  const auto tenth = acting_N_m.begin() + std::ssize(acting_N_m) / 10;
+  std::ranges::nth_element(acting_N_m, tenth);
+  scales.torque_low_N_m = *tenth;
 }
 
 double SearchedParameter::value(double coordinate) const {

@@ -29,7 +29,8 @@ struct Scales {
   double torque_peak_N_m = 0.0;
   double torque_low_N_m = 0.0;       ///< one in ten torques that are not 0 is smaller
   double hub_angle_range_rad = 0.0;  ///< largest of a `time` run; 0 where none shows it
-  /// Of the hub as it was measured, else of a rigid arm that this torque turns.
+  /// Root mean square of the hub's velocity as measured, else of a rigid arm that this torque
+  /// turns.
   double speed_rms_rad_per_s = 1.0;
   double shortest_time_s = 1e-3;  ///< half a sampling period, or 1/(20 highest frequency)
 
@@ -44,8 +45,19 @@ struct Scales {
   double beam_mass_kg() const { return beam.linear_density_kg_per_m * beam.length_m; }
 };
 
-/// Returns Scales::torque_low_N_m of these sizes of torques.
-double low_torque_N_m(std::vector<double> sizes_N_m);
+/// Sums over the torques of runs, and what of Scales they give.
+class TorqueScales {
+ public:
+  /// Adds the torque of a run, a value every `period_s`, on an arm of this inertia.
+  void add(std::span<const double> torque_N_m, double period_s, double inertia_kg_m2);
+  /// Sets rms, peak and low torque, and the velocity of the rigid arm; nothing without a torque.
+  void put(Scales& scales) const;
+
+ private:
+  std::vector<double> sizes_N_m_;
+  double squares_ = 0.0;
+  double speed_squares_ = 0.0;
+};
 
 enum class Spacing {
   linear,

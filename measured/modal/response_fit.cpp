@@ -54,7 +54,7 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
       estimate.periodic ? 1
                         : static_cast<std::size_t>(main_lobe_lines(estimate.settings.plan.window));
   FrequencyRecord record;
-  if (estimator.hub_held()) record.input = arm::parse_sensor(to_string(estimator.input));
+  record.input = estimator.hub_sensor();
   const auto s_at = [&](std::size_t k) {
     return std::complex<double>(0.0, 2.0 * std::numbers::pi * estimate.frequency_Hz[k]);
   };
@@ -122,10 +122,11 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
   return fit_modes(record, options);
 }
 
-ModalFit fit_responses(FrequencyRecord record, ModalFitOptions options) {
+ModalFit fit_responses(const FrequencyRecord& record, ModalFitOptions options) {
   if (!record.input) return fit_modes(record, options);
   const int derivatives = derivatives_to_acceleration(*record.input);
-  for (FrequencyChannel& channel : record.channels) {
+  FrequencyRecord per_acceleration = record;
+  for (FrequencyChannel& channel : per_acceleration.channels) {
     if (!channel.frequency_Hz.empty() && channel.frequency_Hz.front() == 0.0) {
       channel.frequency_Hz.erase(channel.frequency_Hz.begin());
       channel.response.erase(channel.response.begin());
@@ -137,7 +138,7 @@ ModalFit fit_responses(FrequencyRecord record, ModalFitOptions options) {
     }
   }
   options.rigid_body = std::ranges::any_of(record.channels, follows_hub);
-  return fit_modes(record, options);
+  return fit_modes(per_acceleration, options);
 }
 
 }  // namespace flexarm::measured

@@ -26,6 +26,6 @@ ModalFit fit_responses(const FrequencyResponseEstimate& estimate, ModalFitOption
 
 /// Returns the rational fit of responses that were given (fit_modes), those from the hub's motion
 /// per hub acceleration, without a line at 0 Hz. Throws InputError as `fit_modes` does.
-ModalFit fit_responses(FrequencyRecord record, ModalFitOptions options);
+ModalFit fit_responses(const FrequencyRecord& record, ModalFitOptions options);
 
 }  // namespace flexarm::measured

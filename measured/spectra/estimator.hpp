@@ -37,6 +37,11 @@ struct Estimator {
   std::string reason = {};  ///< why; empty: not chosen by evidence
 
   bool hub_held() const { return input != RecordedSignal::torque; }
+  /// Returns the sensor of the hub that is the input; empty where that is the torque.
+  std::optional<arm::Sensor> hub_sensor() const {
+    if (!hub_held()) return std::nullopt;
+    return arm::parse_sensor(to_string(input));
+  }
   /// The signal whose period is that of a periodic excitation.
   RecordedSignal excitation() const { return instrument.value_or(input); }
 };

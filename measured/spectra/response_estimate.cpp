@@ -209,7 +209,7 @@ bool is_excited(const FrequencyResponseEstimate& estimate, std::size_t line) {
 FrequencyRecord to_frequency_record(const FrequencyResponseEstimate& estimate) {
   FrequencyRecord record;
   const Estimator& estimator = estimate.settings.estimator;
-  if (estimator.hub_held()) record.input = arm::parse_sensor(to_string(estimator.input));
+  record.input = estimator.hub_sensor();
   const bool has_instrument = estimator.instrument.has_value();
   for (const auto& channel : estimate.channels) {
     FrequencyChannel made{channel.sensor, {}, {}, {}};

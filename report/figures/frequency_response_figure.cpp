@@ -340,8 +340,7 @@ MeasuredResponse measured_response(const measured::FrequencyResponseEstimate& es
   const auto& found = estimate.channels.at(channel);
   MeasuredResponse made{found.sensor,       estimate.frequency_Hz,      found.response,
                         found.relative_std, found.estimators.coherence, estimate.averages};
-  const measured::Estimator& estimator = estimate.settings.estimator;
-  if (estimator.hub_held()) made.input = arm::parse_sensor(to_string(estimator.input));
+  made.input = estimate.settings.estimator.hub_sensor();
   drop_unexcited(estimate.input_autopower, made);
   return made;
 }

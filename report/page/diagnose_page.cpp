@@ -140,9 +140,7 @@ void add_text(Section& section, const std::string& text) {
 
 Section causes_section(const Diagnosis& diagnosis, const std::string& rest_of_verdict) {
   Section section{"causes", diagnosis.causes.empty() ? "Candidates" : "Causes"};
-  const bool is_open = diagnosis.verdict == diagnose::Verdict::partly_explained ||
-                       diagnosis.verdict == diagnose::Verdict::unexplained;
-  if (is_open) add_text(section, rest_of_verdict);  // else facts say it
+  if (is_open(diagnosis.verdict)) add_text(section, rest_of_verdict);  // else facts say it
   add_text(section, implausible_numbers_text(diagnosis));
   add_text(section, search_text(diagnosis));
   if (!diagnosis.causes.empty()) section.blocks.emplace_back(cause_ranking(diagnosis));

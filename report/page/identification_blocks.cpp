@@ -240,9 +240,8 @@ CurvesBlock autopower_spectra(const IdentifiedRuns& runs) {
     if (!run.estimate) continue;
     const auto& estimate = *run.estimate;
     const auto input = estimate.settings.estimator.input;
-    const bool is_torque = input == measured::RecordedSignal::torque;
-    const std::string input_unit =
-        is_torque ? "N m" : axis_unit(arm::parse_sensor(measured::to_string(input)));
+    const auto hub_sensor = estimate.settings.estimator.hub_sensor();
+    const std::string input_unit = hub_sensor ? axis_unit(*hub_sensor) : "N m";
     CurvesView view{{run.run.id}, {}, {}};
     view.panels.push_back(spectrum_of(text_in_words(measured::to_string(input)), input_unit,
                                       Role::measured, estimate.frequency_Hz,

@@ -21,7 +21,8 @@ Table symptom_table(const diagnose::Symptoms& symptoms);
 Table band_table(const diagnose::Symptoms& symptoms);
 /// The error by regime, by quantity and ascending.
 Table regime_table(const diagnose::Symptoms& symptoms);
-/// The same, the significant regimes first, those with most of the excess residual before others.
+/// The error by regime, the significant regimes first, those with most of the excess residual
+/// before others.
 Table where_it_fails_table(const diagnose::Symptoms& symptoms);
 /// Poles and zeros, measured and simulated.
 Table root_shift_table(const diagnose::Symptoms& symptoms);

@@ -2,7 +2,10 @@
 
 #include "response/frequency/frequency_grid.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 namespace flexarm::response {
 
@@ -40,6 +43,16 @@ FrequencyResponse with_chain(FrequencyResponse of_arm, const LinearChain& chain)
     }
   }
   return of_arm;
+}
+
+FrequencyResponse per_last_sensor(FrequencyResponse per_torque) {
+  const auto last = std::move(per_torque.values.back());
+  per_torque.values.pop_back();
+  per_torque.sensors.pop_back();
+  for (auto& of_sensor : per_torque.values) {
+    std::ranges::transform(of_sensor, last, of_sensor.begin(), std::divides());
+  }
+  return per_torque;
 }
 
 std::complex<double> on_imaginary_axis(double frequency_Hz) {

@@ -38,6 +38,9 @@ FrequencyResponse arm_response(const AnyFormulation& formulation,
                                const FrequencyDone& done = {});
 /// Of the arm with that `of_arm`, behind and before a chain.
 FrequencyResponse with_chain(FrequencyResponse of_arm, const LinearChain& chain);
+/// Returns the responses of the other sensors per reading of the last one. What acts on the hub,
+/// and the path of the torque, have no influence where that is a sensor of the hub.
+FrequencyResponse per_last_sensor(FrequencyResponse per_torque);
 
 /// s = i 2 pi f.
 std::complex<double> on_imaginary_axis(double frequency_Hz);

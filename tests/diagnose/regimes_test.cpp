@@ -285,7 +285,7 @@ TEST(Regimes, OfEachQuantityAddUpToTheErrorOfTheChannels) {
   for (const RegimeError& one : of(RegimeQuantity::frequency, regimes)) {
     sum += one.after * one.after;
   }
-  // What the window of the spectra weighs otherwise than the signal; white noise is the same all
+  // The window of the spectra weighs samples otherwise than the signal; white noise is the same all
   // along.
   constexpr double kWindow = 0.3;
   EXPECT_NEAR(sum, of_channels / channels, kWindow * of_channels / channels);

@@ -206,20 +206,28 @@ TEST(Registry, PutKeepsTheOtherNumbersOfAnEffect) {
   EXPECT_EQ(arm.effects.at("stribeck_friction").value("static_torque"), 0.02);
 }
 
+/// Returns the scales of a run with these torques.
+Scales scales_with(const std::vector<double>& torque_N_m) {
+  TorqueScales torques;
+  torques.add(torque_N_m, 0.01, 1.0);
+  Scales made = scales();
+  torques.put(made);
+  return made;
+}
+
 TEST(SearchRange, OfASaturationEndsWhereNearlyAllOfTheTorqueIsLimited) {
-  std::vector<double> sizes_N_m = {0.0, 0.0};
-  for (int k = 1; k <= 100; ++k) sizes_N_m.push_back(0.01 * k);
-  EXPECT_NEAR(low_torque_N_m(sizes_N_m), 0.11, 1e-12);  // ten of the hundred are smaller
-  EXPECT_EQ(low_torque_N_m({}), 0.0);
+  std::vector<double> torque_N_m = {0.0, 0.0};
+  for (int k = 1; k <= 100; ++k) torque_N_m.push_back(k % 2 == 0 ? 0.01 * k : -0.01 * k);
+  EXPECT_NEAR(scales_with(torque_N_m).torque_low_N_m, 0.11, 1e-12);  // ten of the hundred are below
+  EXPECT_EQ(scales_with({0.0}).torque_low_N_m, scales().torque_low_N_m);
   Scales seen;
   seen.torque_peak_N_m = 0.06;
   seen.torque_low_N_m = 0.02;
   const Entry& saturation = *find("torque_saturation");
   EXPECT_TRUE(saturation.applies(seen));
   EXPECT_EQ(saturation.search(seen).front().lowest, 0.02);
-  // Of a torque of one size a limit is a gain.
-  seen.torque_low_N_m = low_torque_N_m({0.0, 0.06, 0.06, 0.06});
-  EXPECT_FALSE(saturation.applies(seen));
+  // A limit is a gain for a torque of one size.
+  EXPECT_FALSE(saturation.applies(scales_with({0.0, 0.06, -0.06, 0.06})));
 }
 
 }  // namespace

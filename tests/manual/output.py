@@ -2,7 +2,7 @@
 
 import re
 
-# What a page shows is rounded, and the last digit depends on compiler and processor: numbers agree
+# Numbers of a page are rounded, and the last digit depends on compiler and processor: they agree
 # to one in a thousand, or of three digits or more to one of the last. Of a number that is noise
 # around zero only the page's "…" is right.
 RELATIVE_TOLERANCE = 1e-3

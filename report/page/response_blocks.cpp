@@ -177,10 +177,16 @@ CurvesBlock diagnosed_responses(const std::vector<DiagnosedChannel>& frequency_c
   CurvesBlock block{
       {"response", "Torque to each sensor", ""}, frequency_axis(), {"run", "sensor"}, {}};
   for (const DiagnosedChannel& channel : frequency_channels) {
-    auto panels = response_panels(given(channel), has_causes);
+    const ResponsePair pair = given(channel);
+    auto panels = response_panels(pair, has_causes);
     if (panels.empty()) continue;
+    auto facts = channel.facts(has_causes);
+    if (pair.measured.input) {
+      block.head.title = "Frequency responses of each sensor";
+      facts.insert(facts.begin(), {"input", "motion of the hub"});
+    }
     block.views.push_back(
-        {{channel.run->run.id, channel.sensor}, channel.facts(has_causes), std::move(panels)});
+        {{channel.run->run.id, channel.sensor}, std::move(facts), std::move(panels)});
   }
   std::vector<const measured::MeasuredRun*> runs;
   for (const DiagnosedChannel& channel : time_channels) {

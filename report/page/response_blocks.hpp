@@ -4,8 +4,9 @@
 
 namespace flexarm::report::page {
 
-/// Frequency responses of the torque to each sensor, measured beside simulated, with coherence and,
-/// below, the relative difference; a view a run and sensor.
+/// Returns the frequency responses from the torque, or from the motion of the hub, to each sensor,
+/// measured beside simulated, with coherence and, below, the relative difference; a view a run and
+/// sensor.
 ///
 /// `frf` runs as they are. Of `time` runs the responses are estimated (measured/spectra), those of
 /// the simulated signals with the settings and the estimator of the measured ones, so that leakage,

@@ -2,6 +2,7 @@
 
 #include "report/page/cause_blocks.hpp"
 #include "report/page/page_json.hpp"
+#include "report/page/response_blocks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,6 +63,25 @@ TableBlock table_of(const PageDocument& document, const std::string& id) {
     }
   }
   return {};
+}
+
+TEST(DiagnosePage, SaysWhereResponsesAreFromTheMotionOfTheHub) {
+  for (const bool from_hub : {false, true}) {
+    measured::FrequencyRecord record{
+        {{{arm::SensorKind::tip_deflection, 0.0}, {1.0, 2.0}, {1.0, 2.0}, {0.9, 0.9}}}};
+    if (from_hub) record.input = arm::Sensor{arm::SensorKind::hub_angle, 0.0};
+    const measured::MeasuredRun run{{}, record};
+    const std::vector<double> parts = {1.0, 0.0, 2.0, 0.0};
+    const diagnose::Overlay overlay{0, "tip_deflection", parts, parts, parts};
+    const diagnose::Gain error;
+    const CurvesBlock block =
+        diagnosed_responses({{&run, &overlay, &error, "tip deflection", "m"}}, {}, false);
+    EXPECT_EQ(block.head.title,
+              from_hub ? "Frequency responses of each sensor" : "Torque to each sensor");
+    ASSERT_EQ(block.views.size(), 1U);
+    EXPECT_EQ(block.views.front().facts.front().label == "input", from_hub);
+    EXPECT_EQ(block.views.front().panels.front().y.unit, from_hub ? "m/rad" : "m/(N m)");
+  }
 }
 
 TEST(DiagnosePage, WithoutACauseHasNoExtendedArm) {

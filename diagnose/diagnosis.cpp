@@ -226,8 +226,22 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   }
   const Candidate& chosen = selection.chosen.fit.candidate;
   const Posterior posterior = posterior_of(selection);
-  const std::vector<double> errors =
-      standard_errors(selection.problem, selection.chosen, options.further_modes);
+  const Deadline last = options.deadline ? *options.deadline + kReportTime : options.deadline;
+  std::vector<std::string> left_out;
+  const auto in_time = [&](const char* what, const auto& step) {
+    try {
+      require_time(last);
+      step();
+    } catch (const Cancelled&) {
+      left_out.emplace_back(what);
+    }
+  };
+  std::vector<double> errors;
+  in_time("the truncation's share of the standard errors", [&] {
+    errors =
+        standard_errors(selection.problem.until(last), selection.chosen, options.further_modes);
+  });
+  if (errors.empty()) errors = standard_errors(selection.problem, selection.chosen, 0);
   made.causes = causes_of(selection, posterior, errors);
   made.something_else = posterior.of_something_else();
   say_timing(experiment, selection, made.notices);
@@ -254,16 +268,6 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
   made.evaluations = selection.chosen.fit.evaluations;
   arm::Arm arm_of_effects = chosen.extend(problem.experiment().arm);
   arm_of_effects.relative_uncertainties = experiment.arm.relative_uncertainties;
-  const Deadline last = options.deadline ? *options.deadline + kReportTime : options.deadline;
-  std::vector<std::string> left_out;
-  const auto in_time = [&](const char* what, const auto& step) {
-    try {
-      require_time(last);
-      step();
-    } catch (const Cancelled&) {
-      left_out.emplace_back(what);
-    }
-  };
   if (predicted.balance && is_open(made.verdict)) {
     in_time("a law of the hub torque",
             [&] { made.empirical_law = predicted.law_beside_causes(last); });
@@ -322,7 +326,7 @@ Diagnosis diagnose(const Experiment& experiment, const std::vector<Hypothesis>& 
           prediction_errors(selection.problem.until(last), experiment.arm, made.extended_arm);
     });
   }
-  made.posterior = posterior_sets(predicted, options, last);
+  made.posterior = posterior_sets(predicted, errors, options.further_modes, last);
   made.formulations = check_formulations(made.extended_arm, scales_of(experiment).sensors, last);
   if (is_open(made.verdict)) {
     in_time("the near misses", [&] { made.near_misses = near_misses(predicted, posterior, last); });

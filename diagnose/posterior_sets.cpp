@@ -35,10 +35,11 @@ bool is_in_ratio(const SearchedParameter& parameter, double value) {
   return false;
 }
 
-/// Of one fit: the set without its probability. The numbers first, as the fit has them.
-PosteriorSet set_of(const Problem& problem, const Explanation& explanation, int further_modes) {
+/// Returns the set of a fit with these standard errors, without its probability. The numbers first,
+/// as the fit has them.
+PosteriorSet set_of(const Problem& problem, const Explanation& explanation,
+                    const std::vector<double>& errors) {
   const Candidate& candidate = explanation.fit.candidate;
-  const std::vector<double> errors = standard_errors(problem, explanation, further_modes);
   PosteriorSet made;
   if (errors.empty()) return made;
   for (const RefittedNumber& number :
@@ -89,23 +90,25 @@ bool is_whole(const PosteriorSet& set) {
 }  // namespace
 
 std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
-                                         const SelectionOptions& options,
-                                         const Deadline& deadline) {
+                                         const std::vector<double>& errors_of_chosen,
+                                         int further_modes, const Deadline& deadline) {
   const Selection& selection = predicted.selection;
+  const Problem in_time = selection.problem.until(deadline);
   const Posterior posterior = posterior_of(selection);
   std::vector<PosteriorSet> sets;
   std::set<std::set<std::string>> seen;
-  const auto add = [&](const Explanation& explanation, double probability) {
+  const auto add = [&](const Explanation& explanation, double probability,
+                       const std::vector<double>& errors) {
     const Candidate& candidate = explanation.fit.candidate;
-    if (!seen.insert(candidate.labels()).second) return;
-    PosteriorSet made = set_of(selection.problem, explanation, options.further_modes);
+    PosteriorSet made = set_of(selection.problem, explanation, errors);
     if (made.parameters.empty() && !candidate.effects.empty()) return;
     const std::size_t numbers = made.parameters.empty() ? 0 : candidate.nuisances.size();
     made.probability = probability;
     if (is_whole(made)) sets.push_back(with_effects_first(std::move(made), numbers));
   };
   const double of_chosen = posterior.of_set(selection.chosen.fit.candidate);
-  add(selection.chosen, of_chosen > 0.0 ? of_chosen : 1.0);
+  add(selection.chosen, of_chosen > 0.0 ? of_chosen : 1.0, errors_of_chosen);
+  seen.insert(selection.chosen.fit.candidate.labels());
   std::vector<std::pair<double, const Explanation*>> others;
   for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {
@@ -114,9 +117,14 @@ std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
     }
   }
   std::ranges::stable_sort(others, std::ranges::greater{}, &decltype(others)::value_type::first);
-  for (const auto& [probability, one] : others) {
-    if (is_over(deadline)) break;
-    add(*one, probability);
+  try {
+    for (const auto& [probability, one] : others) {
+      require_time(deadline);
+      if (!seen.insert(one->fit.candidate.labels()).second) continue;
+      add(*one, probability, standard_errors(in_time, *one, further_modes));
+    }
+  } catch (const Cancelled&) {
+    // The sets so far.
   }
   double sum = 0.0;
   for (const PosteriorSet& set : sets) sum += set.probability;

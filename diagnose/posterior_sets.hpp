@@ -36,10 +36,12 @@ struct PosteriorSet {
   Eigen::MatrixXd correlation;
 };
 
-/// The chosen set first, then the others by descending probability, down to `kLeastSetProbability`
-/// of the sum. After the deadline no further set is added.
+/// Returns the chosen set, with these standard errors, then the others by descending probability,
+/// down to `kLeastSetProbability` of the sum; theirs are computed with `further_modes`
+/// (standard_errors). After the deadline no further set is added.
 std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
-                                         const SelectionOptions& options, const Deadline& deadline);
+                                         const std::vector<double>& errors_of_chosen,
+                                         int further_modes, const Deadline& deadline);
 inline constexpr double kLeastSetProbability = 0.01;
 
 }  // namespace flexarm::diagnose

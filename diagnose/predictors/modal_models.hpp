@@ -20,7 +20,8 @@ class ModalModels {
  public:
   explicit ModalModels(int flexible_modes) : flexible_modes_(flexible_modes), kept_(kKept) {}
 
-  /// response::time_model. Throws InputError as that does.
+  /// Returns response::time_model with the flexible modes and one for each mass on a spring. Throws
+  /// InputError as that does.
   std::shared_ptr<const arm::ModalModel> of(const response::ArmParts& parts,
                                             std::span<const arm::Sensor> sensors);
   static constexpr std::size_t kKept = 32;

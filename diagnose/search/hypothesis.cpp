@@ -178,6 +178,8 @@ bool Hypothesis::is_at_end_of_range(std::span<const double> values) const {
   const auto sized = size_parameter();
   if (!sized) return false;
   const double place = effects::coordinates_of(parameters, values)[*sized];
+  const auto neutral = parameters[*sized].neutral_coordinate();
+  if (neutral && std::abs(place - *neutral) < kEnd) return false;
   return place < kEnd || place > 1.0 - kEnd;
 }
 

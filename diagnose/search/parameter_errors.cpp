@@ -147,11 +147,13 @@ Eigen::VectorXd errors_of_quantities(const Problem& problem, const Explanation& 
       if (of_runs(i) > limit * variances(i)) variances(i) = widened * widened * of_runs(i);
     }
   }
-  const Problem finer = problem.with_modes(problem.predictor().flexible_modes() + further_modes);
-  if (const auto refined = finer.residuals(fit.candidate, problem.estimation_runs())) {
-    const Eigen::VectorXd shift =
-        by_gradient * (fit.jacobian.transpose() * (*refined - fit.residuals));
-    variances += shift.cwiseAbs2();
+  if (further_modes > 0) {
+    const Problem finer = problem.with_modes(problem.predictor().flexible_modes() + further_modes);
+    if (const auto refined = finer.residuals(fit.candidate, problem.estimation_runs())) {
+      const Eigen::VectorXd shift =
+          by_gradient * (fit.jacobian.transpose() * (*refined - fit.residuals));
+      variances += shift.cwiseAbs2();
+    }
   }
   // What is known of a nuisance without data holds however large the residuals are.
   auto nuisances = variances.head(static_cast<Index>(fit.candidate.nuisances.size()));
@@ -160,12 +162,6 @@ Eigen::VectorXd errors_of_quantities(const Problem& problem, const Explanation& 
 }
 
 }  // namespace
-
-Eigen::VectorXd coordinate_errors(const Problem& problem, const Explanation& explanation,
-                                  int further_modes) {
-  const Index n = explanation.fit.jacobian.cols();
-  return errors_of_quantities(problem, explanation, further_modes, Eigen::MatrixXd::Identity(n, n));
-}
 
 std::vector<double> standard_errors(const Problem& problem, const Explanation& explanation,
                                     int further_modes) {

@@ -235,7 +235,7 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
     }
     if (balanced && balanced->selection.cancelled) return *std::move(balanced);
     if (balanced && !arm::has_beam(arm) && !balanced->selection.end &&
-        !is_doubtful(balanced->selection) && balanced->simulated_error() < error) {
+        !is_doubtful(balanced->selection) && own_error(*balanced) < kRanAway) {
       balanced->reason = fmt::format(
           "a simulation of the arm file leaves {:.3g} % of the signals, and the torque that a "
           "motion takes shows all of an arm without a beam",

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -44,6 +45,24 @@ bool leaves_noise(const Likelihood& likelihood, const ScoredFit& set) {
   return set.is_possible() && likelihood.is_noise(set.lines);
 }
 
+/// Returns the index of an effect whose size is at the end of its range; none of most sets.
+std::optional<std::size_t> effect_at_an_end(const Candidate& set) {
+  for (std::size_t i = 0; i < set.effects.size(); ++i) {
+    if (set.effects[i].is_at_end_of_range(set.values_of(i))) return i;
+  }
+  return std::nullopt;
+}
+
+/// Returns the fit of a set without the effects that end at the end of their range.
+ScoredFit fitted_in_range(const Likelihood& likelihood, const Candidate& start,
+                          const ReportedWork& work) {
+  ScoredFit made = scored_fit(likelihood, start, work);
+  while (const auto ended = effect_at_an_end(made.candidate)) {
+    made = scored_fit(likelihood, made.candidate.without(*ended), work);
+  }
+  return made;
+}
+
 /// One climb on a rung of the ladder, which has a part of the data, or all.
 class Rung {
  public:
@@ -63,7 +82,9 @@ class Rung {
     searched_ = hypotheses_.size() - left_out.size();
   }
 
-  ScoredFit fitted(const Candidate& start) const { return scored_fit(likelihood_, start, work_); }
+  ScoredFit fitted(const Candidate& start) const {
+    return fitted_in_range(likelihood_, start, work_);
+  }
 
   /// Fits the sets of the beam to these data, or the arm as filed where none can be; the best
   /// first.
@@ -135,7 +156,7 @@ class Rung {
     });
     std::erase_if(made, [&](const ScoredFit& one) {
       const bool is_near = is_empty || one.score <= base.score + options_.near;
-      return !is_near || !can_be_timed(one.candidate);
+      return !is_near || effect_at_an_end(one.candidate) || !can_be_timed(one.candidate);
     });
     return made;
   }
@@ -253,7 +274,9 @@ class Rung {
       fits[i] = scored_fit(likelihood_, fits[i].candidate, work_, kLook, &fits[i]);
     });
     for (const ScoredFit& one : fits) meet(one);
-    std::erase_if(fits, [&](const ScoredFit& one) { return !can_be_timed(one.candidate); });
+    std::erase_if(fits, [&](const ScoredFit& one) {
+      return effect_at_an_end(one.candidate) || !can_be_timed(one.candidate);
+    });
     return fits;
   }
 
@@ -305,10 +328,12 @@ void add_rivals(const Likelihood& likelihood, const Likelihood& part, bool excha
   in_parallel(near.size(), [&](std::size_t i) {
     near[i] = scored_fit(likelihood, near[i].candidate, work, kLook);
   });
-  std::erase_if(near, [](const ScoredFit& one) { return !one.is_possible(); });
-  if (!exchanges) std::ranges::move(beam, std::back_inserter(near));
+  std::erase_if(near, [](const ScoredFit& one) {
+    return !one.is_possible() || effect_at_an_end(one.candidate);
+  });
+  if (!exchanges || near.empty()) std::ranges::move(beam, std::back_inserter(near));
   std::ranges::stable_sort(near, {}, &ScoredFit::score);
-  near.front() = scored_fit(likelihood, near.front().candidate, work);
+  near.front() = fitted_in_range(likelihood, near.front().candidate, work);
   beam = std::move(near);
 }
 
@@ -353,6 +378,7 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     rung.fit(beam);
     const bool is_noise = leaves_noise(part, beam.front());
     if (!is_noise) {
+      if (has_climbed) rung.climb(beam, width, Looks::predicted);
       const bool is_one = !has_climbed && climb_afresh(part, hypotheses, to_depth, width);
       if (!is_one) climb_afresh(part, common, options, width);
     }

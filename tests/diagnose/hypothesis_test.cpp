@@ -167,6 +167,19 @@ TEST(SearchedParameter, EndsWhereItSaysAndBeginsAtNothing) {
   EXPECT_GT((SearchedParameter{"x", 0.02, 5.0, effects::Spacing::from_infinity}.value(0.0)), 1e4);
 }
 
+TEST(Hypotheses, EndWhereTheyAskForMoreAndNotWhereTheyDoNothing) {
+  const auto all = hypotheses(short_experiment());
+  for (const char* name : {"hub_inertia", "structural_damping", "root_compliance", "torque_bias"}) {
+    const Hypothesis& one = *std::ranges::find(all, name, &Hypothesis::effect);
+    const SearchedParameter& size = one.parameters.front();
+    const double nothing = *size.neutral_coordinate();
+    EXPECT_FALSE(one.is_at_end_of_range(std::vector{size.value(nothing)})) << name;
+    EXPECT_FALSE(one.is_at_end_of_range(std::vector{size.value(0.5 * (1.0 + nothing))})) << name;
+    EXPECT_TRUE(one.is_at_end_of_range(std::vector{size.value(1.0)})) << name;
+    EXPECT_EQ(one.is_at_end_of_range(std::vector{size.value(0.0)}), nothing > 0.0) << name;
+  }
+}
+
 TEST(Candidate, WithoutAnEffectKeepsTheValuesOfTheOthers) {
   const auto all = hypotheses(short_experiment());
   const auto named = [&](const char* name) {

@@ -78,6 +78,20 @@ TEST_F(ModalModelsOfFourModes, AreComputedAgainAfterManyOthers) {
   EXPECT_EQ(again->modes.back().omega_rad_per_s, first->modes.back().omega_rad_per_s);
 }
 
+TEST_F(ModalModelsOfFourModes, KeepTheModesOfTheBeamBesideAMassOnASpring) {
+  constexpr double kMass_kg = 1e-9;
+  constexpr double kNothing = 1e-6;  // relative; of the order of the mass over that of the beam
+  arm::Arm arm = arm_of_payload(0.05);
+  const auto first = of(arm);
+  arm.effects = {effects::named(
+      "tuned_mass",
+      {{"mass", kMass_kg}, {"frequency", 0.5}, {"damping_ratio", 0.03}, {"position", 0.75}})};
+  const auto beside = of(arm);
+  ASSERT_EQ(beside->modes.size(), first->modes.size() + 1);
+  const double highest = first->modes.back().omega_rad_per_s;
+  EXPECT_NEAR(beside->modes.back().omega_rad_per_s, highest, kNothing * highest);
+}
+
 TEST_F(ModalModelsOfFourModes, AreRefusedAsByTheFormulation) {
   EXPECT_THROW(of(arm_of_payload(-1.0)), arm::InputError);
 }

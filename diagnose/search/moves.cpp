@@ -201,14 +201,18 @@ class Neighbourhood {
   std::vector<Move> with(const Hypothesis& effect) const {
     const std::vector<Hypothesis>& own = base_.candidate.effects;
     std::vector<Move> made;
+    const auto same = std::ranges::find(own, effect.label(), &Hypothesis::label);
+    if (same != own.end()) {
+      const auto i = static_cast<std::size_t>(same - own.begin());
+      if (without_[i]) {
+        look_beside(*without_[i], effect, {samples_at(effect, peaks_Hz_)}, {i}, made);
+      }
+      return made;
+    }
     std::vector<std::size_t> additive;
     bool is_new = true;
     for (std::size_t i = 0; i < own.size(); ++i) {
       if (!without_[i]) continue;
-      if (own[i].label() == effect.label()) {
-        look_beside(*without_[i], effect, {samples_at(effect, peaks_Hz_)}, {i}, made);
-        return made;
-      }
       is_new = is_new && own[i].effect != effect.effect;
       if (depend_on_each_other(own[i], effect)) {
         auto groups = groups_of_samples(effect, own.size() == 1);

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -44,28 +45,20 @@ bool leaves_noise(const Likelihood& likelihood, const ScoredFit& set) {
   return set.is_possible() && likelihood.is_noise(set.lines);
 }
 
-/// Returns whether an effect of a set is at the end of its range.
-bool is_at_an_end(const Candidate& set) {
+/// Returns the index of an effect that is at the end of its range; none of most sets.
+std::optional<std::size_t> effect_at_an_end(const Candidate& set) {
   for (std::size_t i = 0; i < set.effects.size(); ++i) {
-    if (set.effects[i].is_at_end_of_range(set.values_of(i))) return true;
+    if (set.effects[i].is_at_end_of_range(set.values_of(i))) return i;
   }
-  return false;
+  return std::nullopt;
 }
 
-/// Returns the fit of a set without the effects that end at the end of their range, or at the value
-/// at which they do nothing.
+/// Returns the fit of a set without the effects that end at the end of their range.
 ScoredFit fitted_in_range(const Likelihood& likelihood, const Candidate& start,
                           const ReportedWork& work) {
   ScoredFit made = scored_fit(likelihood, start, work);
-  for (std::size_t i = 0; i < made.candidate.effects.size();) {
-    const Hypothesis& effect = made.candidate.effects[i];
-    const auto values = made.candidate.values_of(i);
-    if (effect.is_at_end_of_range(values) || effect.does_nothing(values)) {
-      made = scored_fit(likelihood, made.candidate.without(i), work);
-      i = 0;
-    } else {
-      ++i;
-    }
+  while (const auto ended = effect_at_an_end(made.candidate)) {
+    made = scored_fit(likelihood, made.candidate.without(*ended), work);
   }
   return made;
 }
@@ -163,7 +156,7 @@ class Rung {
     });
     std::erase_if(made, [&](const ScoredFit& one) {
       const bool is_near = is_empty || one.score <= base.score + options_.near;
-      return !is_near || is_at_an_end(one.candidate) || !can_be_timed(one.candidate);
+      return !is_near || effect_at_an_end(one.candidate) || !can_be_timed(one.candidate);
     });
     return made;
   }
@@ -282,7 +275,7 @@ class Rung {
     });
     for (const ScoredFit& one : fits) meet(one);
     std::erase_if(fits, [&](const ScoredFit& one) {
-      return is_at_an_end(one.candidate) || !can_be_timed(one.candidate);
+      return effect_at_an_end(one.candidate) || !can_be_timed(one.candidate);
     });
     return fits;
   }
@@ -335,8 +328,9 @@ void add_rivals(const Likelihood& likelihood, const Likelihood& part, bool excha
   in_parallel(near.size(), [&](std::size_t i) {
     near[i] = scored_fit(likelihood, near[i].candidate, work, kLook);
   });
-  std::erase_if(
-      near, [](const ScoredFit& one) { return !one.is_possible() || is_at_an_end(one.candidate); });
+  std::erase_if(near, [](const ScoredFit& one) {
+    return !one.is_possible() || effect_at_an_end(one.candidate);
+  });
   if (!exchanges || near.empty()) std::ranges::move(beam, std::back_inserter(near));
   std::ranges::stable_sort(near, {}, &ScoredFit::score);
   near.front() = fitted_in_range(likelihood, near.front().candidate, work);

@@ -20,9 +20,6 @@ namespace flexarm::diagnose {
 
 namespace {
 
-/// Two places of a range that differ by less are one.
-constexpr double kSamePlace = 1e-3;
-
 /// A beam by whose sizes effects on a rigid hub are looked for: with three times the hub's inertia
 /// in m l^3, and the frequency scale midway between the lowest and the highest frequency of the
 /// runs, in ratio.
@@ -177,17 +174,12 @@ std::optional<std::size_t> Hypothesis::size_parameter() const {
 }
 
 bool Hypothesis::is_at_end_of_range(std::span<const double> values) const {
-  const auto sized = size_parameter();
-  if (!sized || does_nothing(values)) return false;
-  const double place = effects::coordinates_of(parameters, values)[*sized];
-  return place < kSamePlace || place > 1.0 - kSamePlace;
-}
-
-bool Hypothesis::does_nothing(std::span<const double> values) const {
+  constexpr double kEnd = 1e-3;
   const auto sized = size_parameter();
   if (!sized) return false;
   const double place = effects::coordinates_of(parameters, values)[*sized];
-  return std::abs(place - *parameters[*sized].neutral_coordinate()) < kSamePlace;
+  const bool does_nothing = std::abs(place - *parameters[*sized].neutral_coordinate()) < kEnd;
+  return !does_nothing && (place < kEnd || place > 1.0 - kEnd);
 }
 
 std::optional<std::size_t> Hypothesis::place_parameter() const {

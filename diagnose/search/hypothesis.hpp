@@ -43,11 +43,9 @@ struct Hypothesis {
   std::vector<double> middle() const;
   /// The parameter that gives the effect its size: the first with a value at which it does nothing.
   std::optional<std::size_t> size_parameter() const;
-  /// Returns whether the size parameter of these values is at an end of its range: data that ask
-  /// for more than that ask for another effect.
+  /// Returns whether the size parameter of these values is at an end of its range at which the
+  /// effect does something: data that ask for more than that ask for another effect.
   bool is_at_end_of_range(std::span<const double> values) const;
-  /// Returns whether the size parameter of these values is that at which the effect does nothing.
-  bool does_nothing(std::span<const double> values) const;
   /// The parameter that is a place along the beam: there is none where the effect does nothing.
   std::optional<std::size_t> place_parameter() const;
   /// Unit of a parameter; "1" for a plain number.

@@ -49,16 +49,11 @@ struct SetWithoutEach {
 
 /// Returns the best of `sets`, which are in order, made simpler. An effect gives place to a limit
 /// of it, in a set that was fitted, at posterior odds of kIndistinguishableOdds or less against
-/// that, and is dropped where it does nothing, or the set without it has a score that is higher by
-/// kBareMention or less. Where the best set leaves noise so does the simpler one.
+/// that, and is dropped where the set without it has a score that is higher by kBareMention or
+/// less. Where the best set leaves noise so does the simpler one.
 SetWithoutEach simplest_of(const Likelihood& likelihood, const std::vector<ScoredFit>& sets,
                            const ReportedWork& work) {
   ScoredFit simplest = sets.front();
-  for (std::size_t i = simplest.candidate.effects.size(); i-- > 0;) {
-    const Candidate& set = simplest.candidate;
-    if (!set.effects[i].does_nothing(set.values_of(i))) continue;
-    simplest = scored_fit(likelihood, set.without(i), work);
-  }
   const double highest = simplest.score + 2.0 * std::log(kIndistinguishableOdds);
   const bool leaves_noise = likelihood.is_noise(simplest.lines);
   const auto does_as_well = [&](const ScoredFit& one, double most) {

@@ -174,8 +174,6 @@ TEST(Hypotheses, EndWhereTheyAskForMoreAndNotWhereTheyDoNothing) {
     const SearchedParameter& size = one.parameters.front();
     const double nothing = *size.neutral_coordinate();
     EXPECT_FALSE(one.is_at_end_of_range(std::vector{size.value(nothing)})) << name;
-    EXPECT_TRUE(one.does_nothing(std::vector{size.value(nothing)})) << name;
-    EXPECT_FALSE(one.does_nothing(std::vector{size.value(1.0)})) << name;
     EXPECT_FALSE(one.is_at_end_of_range(std::vector{size.value(0.5 * (1.0 + nothing))})) << name;
     EXPECT_TRUE(one.is_at_end_of_range(std::vector{size.value(1.0)})) << name;
     EXPECT_EQ(one.is_at_end_of_range(std::vector{size.value(0.0)}), nothing > 0.0) << name;

@@ -105,6 +105,21 @@ TEST_F(RankedTest, CostRanksWhateverTheNoiseIs) {
   EXPECT_LT(cost(0.5 * kCoulomb_N_m), cost(0.0));
 }
 
+TEST_F(RankedTest, MovesHaveEachEffectOnce) {
+  // Of one family: what one changes is computed in the place of the other.
+  const auto frictions = named(experiment_, {"coulomb_friction", "stribeck_friction"});
+  const Candidate both = problem_.as_filed()
+                             .with(frictions[0], {0.5 * kCoulomb_N_m})
+                             .with(frictions[1], {0.2 * kCoulomb_N_m, 0.4 * kCoulomb_N_m, 0.1});
+  const ScoredFit base = scored_fit(likelihood_, both, work_, {.most_steps = 1});
+  const std::vector<Move> moves = moves_of(likelihood_, base, frictions, work_);
+  ASSERT_FALSE(moves.empty());
+  for (const Move& move : moves) {
+    const Candidate set = move.of(base.candidate);
+    EXPECT_EQ(set.labels().size(), set.effects.size()) << set.label();
+  }
+}
+
 TEST_F(RankedTest, ABandCountsByItsSampleSize) {
   const ObservedChannel& channel = problem_.observations().channels.front();
   VectorXd lines = VectorXd::Zero(problem_.residual_count());

@@ -331,7 +331,8 @@ void add_rivals(const Likelihood& likelihood, const Likelihood& part, bool excha
   std::erase_if(near, [](const ScoredFit& one) {
     return !one.is_possible() || effect_at_an_end(one.candidate);
   });
-  if (!exchanges || near.empty()) std::ranges::move(beam, std::back_inserter(near));
+  // After the deadline the last fit ends without a result: the beam is then that of before.
+  if (!exchanges || near.empty()) near.insert(near.end(), beam.begin(), beam.end());
   std::ranges::stable_sort(near, {}, &ScoredFit::score);
   near.front() = fitted_in_range(likelihood, near.front().candidate, work);
   beam = std::move(near);

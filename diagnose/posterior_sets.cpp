@@ -96,7 +96,7 @@ std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
   const Problem in_time = selection.problem.until(deadline);
   const Posterior posterior = posterior_of(selection);
   std::vector<PosteriorSet> sets;
-  std::set<std::set<std::string>> seen;
+  std::set<std::set<std::string>> seen = {selection.chosen.fit.candidate.labels()};
   const auto add = [&](const Explanation& explanation, double probability,
                        const std::vector<double>& errors) {
     const Candidate& candidate = explanation.fit.candidate;
@@ -108,7 +108,6 @@ std::vector<PosteriorSet> posterior_sets(const PredictedSelection& predicted,
   };
   const double of_chosen = posterior.of_set(selection.chosen.fit.candidate);
   add(selection.chosen, of_chosen > 0.0 ? of_chosen : 1.0, errors_of_chosen);
-  seen.insert(selection.chosen.fit.candidate.labels());
   std::vector<std::pair<double, const Explanation*>> others;
   for (const auto* tried : {&selection.singles, &selection.combinations}) {
     for (const Explanation& one : *tried) {

@@ -216,7 +216,7 @@ bool is_doubtful(const Selection& selection) {
 /// that it names. The other predictors are tried where it supports none, or errs by more than
 /// kUseless. Where a simulation of the arm as filed runs away, the effects that the torque balance
 /// shows are what the search begins with; of an arm without a beam they are the result, if the
-/// validation runs support one.
+/// validation runs support one and the balance leaves less than the torque itself.
 PredictedSelection select_unasked(const SelectionTask& task, const Problem& problem,
                                   const DiagnosisProgress& progress) {
   const auto beside = [&](const std::vector<Hypothesis>& effects, double from, double to) {

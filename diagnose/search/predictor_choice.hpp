@@ -22,7 +22,8 @@ namespace flexarm::diagnose {
 ///   of hub torque that it shows (empirical_law.hpp), which PredictedSelection::law keeps;
 /// - where a simulation of the arm as filed runs away, the torque balance before it: the search by
 ///   simulation begins with its effects. Of an arm without a beam the balance shows all, so that
-///   its effects are the result where the validation runs support one.
+///   its effects are the result where the validation runs support one, and it leaves less than the
+///   torque itself.
 ///
 /// With options.predictor by that one; throws InputError where it cannot be formed, or no run has a
 /// controller for it.

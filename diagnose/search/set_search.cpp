@@ -156,7 +156,7 @@ class Rung {
     });
     std::erase_if(made, [&](const ScoredFit& one) {
       const bool is_near = is_empty || one.score <= base.score + options_.near;
-      return !is_near || effect_at_an_end(one.candidate) || !can_be_timed(one.candidate);
+      return !is_near || !can_be_named(one.candidate);
     });
     return made;
   }
@@ -274,16 +274,15 @@ class Rung {
       fits[i] = scored_fit(likelihood_, fits[i].candidate, work_, kLook, &fits[i]);
     });
     for (const ScoredFit& one : fits) meet(one);
-    std::erase_if(fits, [&](const ScoredFit& one) {
-      return effect_at_an_end(one.candidate) || !can_be_timed(one.candidate);
-    });
+    std::erase_if(fits, [&](const ScoredFit& one) { return !can_be_named(one.candidate); });
     return fits;
   }
 
-  /// Returns whether the delay or lag that was added last is one that the clock of the data can
-  /// tell.
-  bool can_be_timed(const Candidate& set) const {
+  /// Returns whether no effect is at the end of its range, and the delay or lag that was added last
+  /// is one that the clock of the data can tell.
+  bool can_be_named(const Candidate& set) const {
     if (set.effects.empty()) return true;
+    if (effect_at_an_end(set)) return false;
     const Hypothesis& last = set.effects.back();
     if (last.entry->family != effects::Family::timing) return true;
     return std::abs(set.values_of(set.effects.size() - 1).front()) >= least_time_s_;

@@ -50,10 +50,11 @@ struct FoundSets {
 ///
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
-/// - a rung on which the beam does not leave noise is climbed from the arm as filed too: the first
-///   such one with all effects, to sets of `depth`, and each with the `common` effects alone
-///   (effects::Likely), unless one effect by itself left noise; the best of what these and the rung
-///   below found goes on;
+/// - a rung on which the beam does not leave noise is climbed from its sets, if the rung below was
+///   climbed, and from the arm as filed: the first such one with all effects, to sets of `depth`,
+///   and each with the `common` effects alone (effects::Likely), unless one effect by itself left
+///   noise; the best of these climbs goes on;
+/// - sets with an effect at the end of its range are left;
 /// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
 /// - the next rung begins with the effects that are not hopeless on this one, and goes on with all
 ///   where these do not leave noise;

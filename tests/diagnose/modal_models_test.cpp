@@ -81,15 +81,20 @@ TEST_F(ModalModelsOfFourModes, AreComputedAgainAfterManyOthers) {
 TEST_F(ModalModelsOfFourModes, KeepTheModesOfTheBeamBesideAMassOnASpring) {
   constexpr double kMass_kg = 1e-9;
   constexpr double kNothing = 1e-6;  // relative; of the order of the mass over that of the beam
-  arm::Arm arm = arm_of_payload(0.05);
-  const auto first = of(arm);
-  arm.effects = {effects::named(
-      "tuned_mass",
-      {{"mass", kMass_kg}, {"frequency", 0.5}, {"damping_ratio", 0.03}, {"position", 0.75}})};
-  const auto beside = of(arm);
+  const auto with_mass = [&](double mass_kg) {
+    arm::Arm arm = arm_of_payload(0.05);
+    arm.effects = {effects::named(
+        "tuned_mass",
+        {{"mass", mass_kg}, {"frequency", 0.5}, {"damping_ratio", 0.03}, {"position", 0.75}})};
+    return of(arm);
+  };
+  const auto first = of(arm_of_payload(0.05));
+  const auto beside = with_mass(kMass_kg);
   ASSERT_EQ(beside->modes.size(), first->modes.size() + 1);
   const double highest = first->modes.back().omega_rad_per_s;
   EXPECT_NEAR(beside->modes.back().omega_rad_per_s, highest, kNothing * highest);
+  // A mass of 0 has no mode.
+  EXPECT_EQ(with_mass(0.0)->modes.size(), first->modes.size());
 }
 
 TEST_F(ModalModelsOfFourModes, AreRefusedAsByTheFormulation) {

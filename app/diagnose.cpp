@@ -303,6 +303,8 @@ Command add_diagnose(CLI::App& program) {
           "torque and hub are not judged), frequency_response (responses estimated of the runs) or "
           "auto")
       ->capture_default_str();
+  add_names("--policy", arguments->request.policy,
+            "NAME=NUMBER: a number of the search that is not as documented, for studies of it");
   add_output_choice(
       *parser, arguments->output,
       {.folder = "New folder for the extended arm, tables as CSV, figures and the JSON",

@@ -48,7 +48,7 @@ const std::vector<Group>& groups() {
        {"--from-Hz", "--to-Hz", "--modes", "--order", "--total-inertia", "--no-fit"}},
       {"diagnose",
        "Search",
-       {"--effects", "--exclude", "--max-causes", "--time-limit", "--predictor"}},
+       {"--effects", "--exclude", "--max-causes", "--time-limit", "--predictor", "--policy"}},
       {"diagnose", "Data", {"--accept"}},
       {"plan", "Effects", {"--effects", "--refit"}},
       {"", kOthers, {}},

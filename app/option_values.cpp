@@ -29,6 +29,14 @@ Words check_names() {
   return names;
 }
 
+/// "beam=": the number follows.
+Words policy_names() {
+  Words names;
+  for (const auto& number : diagnose::policy_numbers())
+    names.push_back(fmt::format("{}=", number.name));
+  return names;
+}
+
 template <class Values>
 Words names_of(const Values& values) {
   Words names;
@@ -64,6 +72,7 @@ std::map<std::string_view, Words> words_by_name() {
       {"--magnitude", {"absolute", "dB"}},
       {"--nyquist", {"minus-one", "negative-frequencies"}},
       {"--peaks", {"between", "on-line"}},
+      {"--policy", policy_names()},
       {"--predictor", predictor_names()},
       {"--purpose", {"estimation", "validation"}},
       {"--refit", effect_names()},

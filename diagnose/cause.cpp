@@ -22,7 +22,8 @@ std::string odds_text(double odds) {
 }
 
 std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share,
-                                      bool is_of_disturbance, const std::vector<Rival>& rivals) {
+                                      bool is_of_disturbance, const std::vector<Rival>& rivals,
+                                      double most_odds) {
   std::vector<std::string> evidence = {
       share > 0.0
           ? fmt::format(
@@ -37,7 +38,7 @@ std::vector<std::string> evidence_for(const Hypothesis& hypothesis, double share
   if (rivals.empty()) return evidence;
   const Rival& next = rivals.front();
   evidence.push_back(
-      next.odds <= kIndistinguishableOdds
+      next.odds <= most_odds
           ? fmt::format("Indistinguishable from {} in these data (posterior odds {}).",
                         next.effect->label(), odds_text(next.odds))
           : fmt::format("With {} in its place the fit is worse: posterior odds {} to 1, delta BIC "
@@ -70,6 +71,7 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
       : chosen.effects.size() == 1
           ? selection.nothing
           : explain(selection.problem, evaluated(selection.problem, chosen.without(index)));
+  const Policy& policy = selection.problem.policy();
   Cause cause;
   cause.effect = effect.effect;
   cause.sensor = effect.sensor;
@@ -78,7 +80,7 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   cause.share = share_taken(without.estimation, selection.chosen.estimation);
   cause.confidence = posterior.of(effect);
   const std::vector<Rival> rivals = rivals_of(effect, selection, posterior);
-  cause.class_confidence = class_probability(effect, rivals, posterior);
+  cause.class_confidence = class_probability(effect, rivals, posterior, policy.odds);
   auto& confusable = cause.confusable_with;
   confusable = effect.other_names;
   const auto add = [&confusable](const std::string& name) {
@@ -87,7 +89,7 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   std::size_t of_family = 0;
   std::size_t of_others = 0;
   for (const Rival& rival : rivals) {
-    if (rival.odds > kIndistinguishableOdds) break;
+    if (rival.odds > policy.odds) break;
     ++(rival.effect->entry->family == effect.entry->family ? of_family : of_others);
     // Of the same effect it is another sensor.
     add(rival.effect->effect == effect.effect ? rival.effect->label() : rival.effect->effect);
@@ -97,12 +99,12 @@ Cause cause_of(const Selection& selection, std::size_t index, const Posterior& p
   cause.names_family = of_family > 0 && of_others == 0;
   if (!selection.evidence.empty()) {
     cause.figures = selection.evidence[index];
-    cause.grade = cause.is_at_end_of_range
-                      ? Grade::candidate
-                      : grade_of(*cause.figures, of_others > 0, selection.chosen.leaves_noise());
+    cause.grade = cause.is_at_end_of_range ? Grade::candidate
+                                           : grade_of(*cause.figures, of_others > 0,
+                                                      selection.chosen.leaves_noise(), policy);
   }
-  cause.evidence =
-      evidence_for(effect, cause.share, without.estimation.disturbance.has_value(), rivals);
+  cause.evidence = evidence_for(effect, cause.share, without.estimation.disturbance.has_value(),
+                                rivals, policy.odds);
   if (cause.is_at_end_of_range) {
     cause.evidence.push_back(fmt::format("Its {} is at the end of the range that is searched.",
                                          effect.parameters[*effect.size_parameter()].name));

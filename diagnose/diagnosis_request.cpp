@@ -24,6 +24,18 @@ std::optional<PredictorKind> chosen_predictor(const DiagnosisRequest& request) {
                   request.spelled("predictor"), arm::shown(request.predictor)));
 }
 
+Policy chosen_policy(const DiagnosisRequest& request) {
+  Policy policy;
+  for (const std::string& number : request.policy) {
+    try {
+      set_number(policy, number);
+    } catch (const arm::InputError& error) {
+      throw arm::InputError(fmt::format("{} {}", request.spelled("policy"), error.what()));
+    }
+  }
+  return policy;
+}
+
 }  // namespace
 
 Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock::time_point begun) {
@@ -48,6 +60,7 @@ void require_valid(const DiagnosisRequest& request) {
     throw arm::out_of_range(request.spelled("max-causes"), *request.most_causes, "", "1 or more");
   }
   chosen_predictor(request);
+  chosen_policy(request);
 }
 
 Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request,
@@ -59,6 +72,7 @@ Diagnosis diagnose(const Experiment& experiment, const DiagnosisRequest& request
   SelectionOptions options;
   options.most_causes = request.most_causes;
   options.predictor = chosen_predictor(request);
+  options.policy = chosen_policy(request);
   if (deadline) {
     options.deadline = std::max(*halfway(deadline), *deadline - kReportTime);
     options.last = *deadline + kReportTime;

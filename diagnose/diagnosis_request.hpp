@@ -20,6 +20,8 @@ struct DiagnosisRequest {
   std::optional<double> time_limit_s = {};
   std::optional<int> most_causes = {};  ///< any number unless given
   std::string predictor = "auto";       ///< or a PredictorKind
+  /// Numbers of the search that are not as in search/policy.hpp: "NAME=NUMBER".
+  std::vector<std::string> policy = {};
   arm::OptionSpelling spelled = arm::on_command_line;
 };
 
@@ -31,7 +33,8 @@ Deadline deadline_of(const DiagnosisRequest& request, std::chrono::steady_clock:
 Experiment experiment_of(compare::Recording recording, const DiagnosisRequest& request,
                          const Deadline& deadline = {});
 
-/// Throws InputError for a number of causes below 1 and an unknown predictor.
+/// Throws InputError for a number of causes below 1, an unknown predictor and a number of the
+/// search that there is not.
 void require_valid(const DiagnosisRequest& request);
 
 /// Returns the diagnosis that is asked for, by a search that ends kReportTime before the deadline,

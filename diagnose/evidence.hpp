@@ -1,5 +1,7 @@
 #pragma once
 
+#include "diagnose/search/policy.hpp"
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,16 +35,13 @@ struct EffectEvidence {
   double agreement = 1.0;  ///< p-value of the estimates of the runs, if one value holds in all
 };
 
-/// A loss of -2 ln L that is beyond doubt: odds of e^5 = 150 to 1.
-inline constexpr double kBeyondDoubt = 10.0;
-/// Estimates of runs that agree by chance in fewer cases than this do not agree.
-inline constexpr double kLeastAgreement = 0.01;
 inline constexpr int kErrorBlocks = 10;
 
 /// Returns the grade of an effect: `supported` where the validation runs are predicted worse
-/// without it beyond doubt, `established` where besides its estimates agree between runs, no effect
-/// of another family does about as well in its place (`has_rival`), and the residuals of the whole
-/// set are noise (`leaves_noise`).
-Grade grade_of(const EffectEvidence& evidence, bool has_rival, bool leaves_noise);
+/// without it beyond doubt (Policy::beyond_doubt, odds of e^5 = 150 to 1), `established` where
+/// besides its estimates agree between runs, no effect of another family does about as well in its
+/// place (`has_rival`), and the residuals of the whole set are noise (`leaves_noise`).
+Grade grade_of(const EffectEvidence& evidence, bool has_rival, bool leaves_noise,
+               const Policy& policy = {});
 
 }  // namespace flexarm::diagnose

@@ -20,6 +20,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -55,14 +56,19 @@ struct RunOverlay {
 Diagnosed diagnose_measurement(const py::object& measurement, const Texts& effects,
                                const Texts& exclude, const Texts& accept,
                                std::optional<double> time_limit_s, std::optional<int> max_causes,
-                               const std::string& predictor, const py::object& progress) {
+                               const std::string& predictor,
+                               const std::map<std::string, double>& policy,
+                               const py::object& progress) {
   const auto begun = std::chrono::steady_clock::now();
+  Texts numbers;
+  for (const auto& [name, value] : policy) numbers.push_back(fmt::format("{}={}", name, value));
   const diagnose::DiagnosisRequest request{.effects = effects,
                                            .excluded = exclude,
                                            .accepted = accept,
                                            .time_limit_s = time_limit_s,
                                            .most_causes = max_causes,
                                            .predictor = predictor,
+                                           .policy = numbers,
                                            .spelled = as_argument};
   const MeasurementSource source = measurement_source(measurement);
   return long_call("diagnosis", progress, [&](CallState& state) {
@@ -285,7 +291,7 @@ void add_diagnosis(py::module_& module) {
              py::arg("effects") = Texts{}, py::arg("exclude") = Texts{},
              py::arg("accept") = Texts{}, py::arg("time_limit_s") = py::none(),
              py::arg("max_causes") = py::none(), py::arg("predictor") = "auto",
-             py::arg("progress") = py::none(),
+             py::arg("policy") = std::map<std::string, double>{}, py::arg("progress") = py::none(),
              "Names the causes of the differences between the simulation of an arm and its "
              "measured data, as `flexarm diagnose` does: Diagnosis. Ctrl-C ends it.\n\n"
              "Arguments:\n"
@@ -297,6 +303,7 @@ void add_diagnosis(py::module_& module) {
              "  max_causes: most causes that are named together (None: as many as the data show)\n"
              "  predictor: how time runs are predicted, 'auto' or a name of docs/diagnosis.md "
              "('auto')\n"
+             "  policy: numbers of the search that are not as documented, a dict\n"
              "  progress: a callable of the fraction done, None for a line on a terminal or in a "
              "notebook, False for none\n\n"
              "Raises InputError 'FILE:LINE: ...' for input that cannot be used, and for an "

@@ -1,7 +1,7 @@
 #include "diagnose/search/channel_independence.hpp"
 
 #include "arm/sensor.hpp"
-#include "diagnose/search/dependence_test.hpp"
+#include "diagnose/search/dependence.hpp"
 #include "diagnose/search/residual_test.hpp"
 
 #include <algorithm>

@@ -102,7 +102,8 @@ class RunEstimates {
       if (solver.info() != Eigen::Success) continue;
       const VectorXd step = -solver.solve(gradient);
       const VectorXd variances = solver.solve(MatrixXd::Identity(count, count)).diagonal();
-      if (!(variances.maxCoeff() < kPlaceDeviation * kPlaceDeviation)) continue;
+      if (!(std::sqrt(variances.maxCoeff()) < all_runs_.problem().policy().place_deviation))
+        continue;
       ++runs;
       information += of_run;
       weighted_steps += of_run * step;

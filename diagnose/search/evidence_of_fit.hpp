@@ -14,7 +14,7 @@ namespace flexarm::diagnose {
 /// The estimates of a run are those of one Gauss-Newton step from the values of all runs, by the
 /// lines of that run alone and the weights of the likelihood of all runs; their agreement is a
 /// chi-squared test over the runs that determine the places of the parameters to less than
-/// kPlaceDeviation.
+/// Policy::place_deviation.
 std::vector<EffectEvidence> evidence_for_each(const Likelihood& held_out, const ScoredFit& chosen,
                                               const std::vector<ScoredFit>& without,
                                               const ReportedWork& work);

@@ -1,43 +1,56 @@
 #include "diagnose/search/fit.hpp"
 
-#include "diagnose/search/least_squares.hpp"
+#include "diagnose/search/minimise.hpp"
 
 #include <utility>
 
 namespace flexarm::diagnose {
 
-Eigen::VectorXd residuals_or_impossible(const Problem& problem, const Candidate& candidate) {
-  if (auto residuals = problem.residuals(candidate, problem.estimation_runs())) {
-    return *std::move(residuals);
+namespace {
+
+/// The sum of squares of the residuals of the estimation runs.
+class SumOfSquares final : public Objective {
+ public:
+  explicit SumOfSquares(const Problem& problem) : problem_(problem) {}
+
+  std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const override {
+    return problem_.residuals(candidate, problem_.estimation_runs());
   }
-  return Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
-}
+  double cost(const Eigen::VectorXd& residuals) const override { return residuals.squaredNorm(); }
+  Eigen::VectorXd weights(const Eigen::VectorXd& residuals) const override {
+    return Eigen::VectorXd::Ones(residuals.size());
+  }
+
+ private:
+  const Problem& problem_;
+};
+
+}  // namespace
 
 Fit evaluated(const Problem& problem, const Candidate& candidate) {
-  return {.candidate = candidate,
-          .residuals = residuals_or_impossible(problem, candidate),
-          .converged = true};
+  Fit made{.candidate = candidate, .converged = true};
+  auto residuals = problem.residuals(candidate, problem.estimation_runs());
+  made.residuals = residuals
+                       ? *std::move(residuals)
+                       : Eigen::VectorXd::Constant(problem.residual_count(), kImpossibleResidual);
+  made.sum_of_squares = made.residuals.squaredNorm();
+  return made;
 }
 
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options) {
-  Fit made{.candidate = start};
-  const auto residuals_at = [&](const Eigen::VectorXd& places) -> Eigen::VectorXd {
-    if (options.work != nullptr) options.work->go_on();
-    Candidate tried = start;
-    tried.put(places);
-    return residuals_or_impossible(problem, tried);
-  };
-  LeastSquares found = least_squares(residuals_at, start.coordinates(),
-                                     {.most_steps = options.most_steps,
-                                      .tolerance = options.tolerance,
-                                      .is_differenced_at_end = options.is_differenced_at_end});
-  made.candidate.put(found.places);
-  made.sum_of_squares = found.residuals.squaredNorm();
-  made.residuals = std::move(found.residuals);
-  made.jacobian = std::move(found.jacobian);
-  made.evaluations = found.evaluations;
-  made.converged = found.converged;
-  return made;
+  const ReportedWork unreported({});
+  Minimum found =
+      minimise(SumOfSquares(problem), start, options.work != nullptr ? *options.work : unreported,
+               {.most_steps = options.most_steps,
+                .tolerance = 0.0,
+                .relative_tolerance = options.tolerance});
+  if (!found.is_possible()) return evaluated(problem, start);
+  return {.candidate = std::move(found.candidate),
+          .residuals = std::move(found.lines),
+          .sum_of_squares = found.cost,
+          .jacobian = std::move(found.jacobian),
+          .evaluations = found.evaluations,
+          .converged = found.converged};
 }
 
 }  // namespace flexarm::diagnose

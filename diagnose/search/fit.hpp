@@ -20,22 +20,18 @@ struct Fit {
 
 struct FitOptions {
   int most_steps = 60;
-  /// Converged where a step lowers the sum of squares by less than this part of it, or moves no
-  /// place by more than this.
+  /// Converged where a step is expected to lower the sum of squares by less than this part of it.
   double tolerance = 1e-7;
-  /// As in LeastSquaresOptions.
-  bool is_differenced_at_end = true;
   const ReportedWork* work = nullptr;  ///< that the fit is part of; asked before each evaluation
 };
 
-/// Of the estimation runs; all kImpossibleResidual where the candidate's arm cannot be computed.
-Eigen::VectorXd residuals_or_impossible(const Problem& problem, const Candidate& candidate);
-
-/// Returns the candidate as it is, not fitted, without derivatives.
+/// Returns the candidate as it is, not fitted, without derivatives; the residuals are all
+/// kImpossibleResidual where its arm cannot be computed.
 Fit evaluated(const Problem& problem, const Candidate& candidate);
+inline constexpr double kImpossibleResidual = 1e8;
 
-/// From the candidate's own values to the nearest minimum (Levenberg-Marquardt). A candidate
-/// without effects is evaluated. Throws Cancelled where the work is cancelled.
+/// Returns the minimum of the sum of squares that is nearest to `start` (minimise.hpp); where that
+/// cannot be computed, `evaluated`. Throws Cancelled where the work is cancelled.
 Fit fit(const Problem& problem, const Candidate& start, const FitOptions& options = {});
 
 }  // namespace flexarm::diagnose

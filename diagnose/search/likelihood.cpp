@@ -26,13 +26,6 @@ constexpr double kLeastSquare = 1e-12;
 /// Lines of the lowest band, at least.
 constexpr Index kFewestLines = 8;
 
-/// Standard deviations that the squares of noise exceed their expectation by: of one of some 100
-/// bands, and of all together.
-constexpr double kBandChance = 4.0;
-constexpr double kTotalChance = 2.5;
-/// The factor to which the simulation's own error is known: it is that of the arm as filed.
-constexpr double kErrorKnown = 10.0;
-
 /// Flexible modes beyond those that are needed, by which the truncation of a simulation is judged.
 constexpr int kFurtherModes = 4;
 
@@ -149,20 +142,19 @@ VectorXd truncation_of(const Problem& problem, std::vector<bool> runs, int modes
 
 /// Returns the change of the residuals by the error of the measured motion, of an arm that is
 /// driven by it or whose torque is balanced with it; else 0. One draw of that error is computed,
-/// and multiplied by kDraws. Noise of the motion excites the simulated resonances, from which
-/// damping takes it, and is the torque of an inertia, which a lower inertia takes. The gain in one
-/// octave is 8 ln(1 + 1/kDraws^2) at most, in the same direction in some 100 octaves: it is to be
-/// less than the price of an effect.
+/// and multiplied by Policy::motion_draws, d. Noise of the motion excites the simulated resonances,
+/// from which damping takes it, and is the torque of an inertia, which a lower inertia takes. The
+/// gain in one octave is 8 ln(1 + 1/d^2) at most, in the same direction in some 100 octaves: it is
+/// to be less than the price of an effect.
 VectorXd motion_error_of(const Problem& problem) {
-  constexpr double kDraws = 6.0;
   if (!is_driven_by_motion(problem.experiment())) return VectorXd::Zero(problem.residual_count());
   const Observations& observations = problem.observations();
   VectorXd made = VectorXd::Zero(problem.residual_count());
   made.head(observations.values.size()) =
-      kDraws * change_by_motion_error(problem.experiment(), observations,
-                                      problem.predictor().flexible_modes(),
-                                      problem.predictor().deadline())
-                   .cwiseQuotient(observations.deviations);
+      problem.policy().motion_draws * change_by_motion_error(problem.experiment(), observations,
+                                                             problem.predictor().flexible_modes(),
+                                                             problem.predictor().deadline())
+                                          .cwiseQuotient(observations.deviations);
   return made;
 }
 
@@ -178,7 +170,7 @@ Likelihood::Likelihood(const Problem& problem, std::vector<bool> runs, int flexi
       lines(truncation_of(problem, runs_, flexible_modes + kFurtherModes)).cwiseAbs2() +
       lines(motion_error_of(problem)).cwiseAbs2();
   // Innovations of a Kalman filter follow the data, from one sample to the next.
-  const double discrepancy = problem.predictor().noise() ? 0.0 : kDiscrepancy * kDiscrepancy;
+  const double discrepancy = problem.predictor().noise() ? 0.0 : std::pow(policy().discrepancy, 2);
   for (const ObservedChannel& channel : observations.channels) {
     if (!runs_[channel.run]) continue;
     const auto& data = problem.experiment().runs[channel.run].data;
@@ -223,7 +215,8 @@ void Likelihood::take(SampleSize sample_size) {
   for (Band& band : bands_) {
     const auto n = static_cast<double>(band.count);
     const bool is_of_noise = sample_size == SampleSize::of_noise && !band.is_stated;
-    band.sample_size = is_of_noise ? n : band.is_stated ? kSampleSize : std::min(n, kSampleSize);
+    const double most = policy().sample_size;
+    band.sample_size = is_of_noise ? n : band.is_stated ? most : std::min(n, most);
   }
 }
 
@@ -285,16 +278,17 @@ bool Likelihood::is_noise(const VectorXd& lines) const {
   double variance = 0.0;
   for (const Band& band : bands_) {
     const auto n = static_cast<double>(band.count);
-    const double own =
-        lines.segment(band.first, band.count).squaredNorm() - n - kErrorKnown * band.added;
-    if (own > kBandChance * std::sqrt(2.0 * n)) return false;
+    const double own = lines.segment(band.first, band.count).squaredNorm() - n -
+                       policy().error_factor * band.added;
+    if (own > policy().band_deviations * std::sqrt(2.0 * n)) return false;
     excess += own;
     variance += 2.0 * n;
   }
   const Index nuisances = lines.size() - problem_.observations().values.size();
   const auto n = static_cast<double>(nuisances);
-  if (lines.tail(nuisances).squaredNorm() - n > kBandChance * std::sqrt(2.0 * n)) return false;
-  return excess <= kTotalChance * std::sqrt(variance);
+  const double own = lines.tail(nuisances).squaredNorm() - n;
+  if (own > policy().band_deviations * std::sqrt(2.0 * n)) return false;
+  return excess <= policy().total_deviations * std::sqrt(variance);
 }
 
 std::vector<double> Likelihood::peaks_Hz(const VectorXd& lines, std::size_t most) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "diagnose/search/minimise.hpp"
 #include "diagnose/search/problem.hpp"
 
 #include <Eigen/Core>
@@ -26,10 +27,10 @@ enum class SampleSize { of_model_error, of_noise };
 ///
 /// up to a constant. a_b are the squares of what the simulation itself errs by: its truncation,
 /// which is the change that further modes make of the arm as filed, what the error of a measured
-/// motion that drives it adds, and, but for a Kalman filter, kDiscrepancy of the signal in that
-/// band. m_b is the effective sample size of a band (SampleSize): what a model gets wrong is a
+/// motion that drives it adds, and, but for a Kalman filter, Policy::discrepancy of the signal in
+/// that band. m_b is the effective sample size of a band (SampleSize): what a model gets wrong is a
 /// smooth function of frequency times the signal, so that its lines are no more independent of each
-/// other the more of them a record has, and m_b = min(n_b, kSampleSize). Lines of noise are
+/// other the more of them a record has, and m_b = min(n_b, Policy::sample_size). Lines of noise are
 /// independent, m_b = n_b: between sets that both leave noise these decide.
 ///
 /// Lines of responses and entries of modal tables have stated deviations. An octave of a response,
@@ -40,13 +41,8 @@ enum class SampleSize { of_model_error, of_noise };
 ///               n + m ln(1 + (S - n)/m)      S >  n
 ///
 /// Nuisances add their squares.
-class Likelihood {
+class Likelihood final : public Objective {
  public:
-  /// The part of a signal, as an amplitude, below which no model is asked to follow it.
-  static constexpr double kDiscrepancy = 3e-3;
-  /// The largest effective sample size of an octave of a channel.
-  static constexpr double kSampleSize = 8.0;
-
   /// Takes the `runs` of the problem, which must outlive the object.
   Likelihood(const Problem& problem, std::vector<bool> runs);
   /// Takes a problem with fewer flexible modes than the `flexible_modes` that are needed: the
@@ -59,8 +55,7 @@ class Likelihood {
   /// Returns residuals (Problem::residuals), or changes of them, as lines; the map is linear.
   Eigen::VectorXd lines(const Eigen::VectorXd& residuals) const;
 
-  /// Returns the lines of a candidate's residuals; empty where its arm cannot be computed.
-  std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const;
+  std::optional<Eigen::VectorXd> lines_of(const Candidate& candidate) const override;
 
   /// Returns the same with this sample size of its octaves, which is of_model_error unless given.
   Likelihood with(SampleSize sample_size) const;
@@ -68,7 +63,9 @@ class Likelihood {
   /// Returns -2 ln L of a candidate; infinite where its arm cannot be computed.
   double cost_of(const Candidate& candidate) const;
   /// Returns -2 ln L of lines.
-  double cost(const Eigen::VectorXd& lines) const { return cost_of_squares(lines.cwiseAbs2()); }
+  double cost(const Eigen::VectorXd& lines) const override {
+    return cost_of_squares(lines.cwiseAbs2());
+  }
   /// Returns -2 ln L of the squares of lines.
   double cost_of_squares(const Eigen::VectorXd& squares) const;
   /// Returns whether lines may be noise and the simulation's own error: neither a band, nor
@@ -78,9 +75,7 @@ class Likelihood {
   /// Returns the frequencies [Hz] of the `most` lines of `time` runs with the largest shares of the
   /// squares of their octaves, in order, no two nearer than the longest run resolves.
   std::vector<double> peaks_Hz(const Eigen::VectorXd& lines, std::size_t most) const;
-  /// Returns the derivatives of -2 ln L by the square of each line: the weights of the quadratic
-  /// form that has the same derivatives there.
-  Eigen::VectorXd weights(const Eigen::VectorXd& lines) const;
+  Eigen::VectorXd weights(const Eigen::VectorXd& lines) const override;
 
  private:
   struct Band {
@@ -98,6 +93,8 @@ class Likelihood {
   };
 
   void take(SampleSize sample_size);
+
+  const Policy& policy() const { return problem_.policy(); }
 
   const Problem& problem_;
   std::vector<bool> runs_;

@@ -30,9 +30,6 @@ constexpr double kSmallSize = 0.1;
 /// A smaller part of it beside no effect, for what is far below the range of its search.
 constexpr double kSmallestSize = 0.01;
 
-/// Peaks of the residuals at whose frequencies an effect with a frequency is looked at.
-constexpr std::size_t kPeaks = 4;
-
 /// Returns the columns of `jacobian` but those by the effect at `index`.
 MatrixXd without_effect(const MatrixXd& jacobian, const Candidate& set, std::size_t index) {
   const auto first = static_cast<Index>(set.nuisances.size() + set.values_before(index));
@@ -110,7 +107,7 @@ class Ground {
         roots_(weights_.cwiseSqrt()),
         refitted_(roots_.asDiagonal() * jacobian),
         left_(refitted_(roots_.cwiseProduct(lines_))),
-        price_(price(set_, jacobian, weights_)) {}
+        price_(price(set_, jacobian, weights_, likelihood.problem().policy())) {}
 
   const Candidate& set() const { return set_; }
 
@@ -129,7 +126,7 @@ class Ground {
     const double size = std::clamp(-refitted.dot(left_) / squares, least, most);
     const VectorXd predicted = unweighted(left_ + size * refitted);
     const double parameters = static_cast<double>(effect.parameters.size());
-    const double deviation = place_deviation(effect);
+    const double deviation = place_deviation(effect, likelihood_.problem().policy());
     const double determined = parameters * std::log1p(deviation * deviation * squares);
     std::vector<double> values = values_at(effect, places, size);
     const double added = price(effect, set_.effects) + price_of_value(effect, values) + determined;
@@ -168,7 +165,7 @@ class Neighbourhood {
     const Candidate& set = base.candidate;
     const VectorXd weights = likelihood.weights(base.lines);
     const bool is_noise = likelihood.is_noise(base.lines);
-    if (!is_noise) peaks_Hz_ = likelihood.peaks_Hz(base.lines, kPeaks);
+    if (!is_noise) peaks_Hz_ = likelihood.peaks_Hz(base.lines, likelihood.problem().policy().peaks);
     whole_ = std::make_unique<Ground>(likelihood, set, base.lines, base.jacobian, weights);
     without_.resize(set.effects.size());
     by_tangent_.resize(set.effects.size());

@@ -1,7 +1,7 @@
 #include "diagnose/search/nuisances.hpp"
 
 #include "diagnose/search/channel_independence.hpp"
-#include "diagnose/search/dependence_test.hpp"
+#include "diagnose/search/dependence.hpp"
 #include "diagnose/search/explanation.hpp"
 #include "diagnose/search/residual_test.hpp"
 
@@ -37,8 +37,7 @@ std::optional<Problem> with_noise_colour(const Problem& problem, const Candidate
   auto coloured = problem.with_coloured_noise(set);
   if (!coloured || exceeds_noise_of_one_sensor(*coloured, problem)) return std::nullopt;
   if (!leaves_noise_in(*coloured)) return std::nullopt;
-  const DependenceTest dependence = test_dependence(*coloured, problem, set, work, level);
-  if (dependence.p_value < level) return std::nullopt;
+  if (dependence_p_value(*coloured, set, work, level) < level) return std::nullopt;
   return coloured;
 }
 

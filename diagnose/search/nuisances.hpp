@@ -27,7 +27,7 @@ std::optional<TimedProblem> with_timing(const Problem& problem, const Candidate&
 
 /// Returns `problem` with the coloured noise that `set` leaves, where its residuals are no white
 /// noise, are noise of that colour, and do not depend at `level` on what the arm does
-/// (dependence_test.hpp); empty elsewhere. Throws Cancelled where the work is cancelled.
+/// (dependence.hpp); empty elsewhere. Throws Cancelled where the work is cancelled.
 std::optional<Problem> with_noise_colour(const Problem& problem, const Candidate& set, double level,
                                          ReportedWork& work);
 

@@ -35,7 +35,9 @@ Problem first_part_of(const Problem& whole, std::size_t samples, int most_modes)
   const int modes = std::min(most_modes, whole.predictor().flexible_modes());
   return {std::move(part),
           std::move(observations),
-          {.flexible_modes = modes, .deadline = whole.predictor().deadline()}};
+          {.flexible_modes = modes,
+           .policy = whole.policy(),
+           .deadline = whole.predictor().deadline()}};
 }
 
 }  // namespace

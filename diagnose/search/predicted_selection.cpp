@@ -39,8 +39,9 @@ Experiment decimated_runs(const Experiment& experiment, const SelectionOptions& 
 /// Returns the problem that a filter is given.
 Problem filtered_problem(const Experiment& experiment, int flexible_modes,
                          const SelectionOptions& options) {
-  return {std::make_shared<const Experiment>(decimated_runs(experiment, options)),
-          {.flexible_modes = flexible_modes, .deadline = options.deadline}};
+  return {
+      std::make_shared<const Experiment>(decimated_runs(experiment, options)),
+      {.flexible_modes = flexible_modes, .policy = options.policy, .deadline = options.deadline}};
 }
 
 }  // namespace
@@ -82,7 +83,7 @@ PredictedSelection select_by_motion(const SelectionTask& task, const Experiment&
   std::erase_if(searched, [](const Hypothesis& one) { return !acts_beside_motion(one); });
   const Problem driven(
       std::make_shared<const Experiment>(driven_by_motion(without_controllers(experiment))),
-      {.deadline = task.options.deadline});
+      {.policy = task.options.policy, .deadline = task.options.deadline});
   return select_by_simulation({searched, task.options}, driven, progress);
 }
 
@@ -91,6 +92,7 @@ PredictedSelection select_by_balance(const SelectionTask& task, const Problem& s
   const Problem balance(std::make_shared<const Experiment>(
                             balanced_at_hub(decimated_runs(simulated.experiment(), task.options))),
                         {.flexible_modes = simulated.predictor().flexible_modes(),
+                         .policy = task.options.policy,
                          .deadline = task.options.deadline});
   std::vector<Hypothesis> searched = task.hypotheses;
   std::erase_if(searched, is_on_hub_sensor);
@@ -181,7 +183,8 @@ std::optional<PredictedSelection> select_by_responses(const SelectionTask& task,
   });
   SelectionOptions options = task.options;
   if (!task.is_asked()) options.deadline = halfway(options.deadline);
-  const Problem problem(std::make_shared<const Experiment>(*std::move(responses)), {});
+  const Problem problem(std::make_shared<const Experiment>(*std::move(responses)),
+                        {.policy = options.policy});
   return PredictedSelection{.selection = select(problem, searched, options, progress),
                             .predictor = PredictorKind::frequency_response,
                             .reason = "as asked for",

@@ -22,9 +22,6 @@ namespace {
 /// A simulation that errs less than this more than another is about as good.
 constexpr double kAbout = 1.05;
 
-/// NRMSE of a simulation that predicts little, with what it names.
-constexpr double kUseless = 0.5;
-
 /// NRMSE of a simulation that says less of the data than their means do.
 constexpr double kRanAway = 1.0;
 
@@ -35,7 +32,7 @@ constexpr double kDiverged = 10.0;
 /// Else, and by output error where that is asked for, from the recorded torque; `note` says why.
 Problem simulated_problem(const Experiment& experiment, const SelectionOptions& options,
                           std::string& note) {
-  const ProblemOptions until_then{.deadline = options.deadline};
+  const ProblemOptions until_then{.policy = options.policy, .deadline = options.deadline};
   if (!has_controllers(experiment)) return Problem(experiment, until_then).until({});
   if (options.predictor != PredictorKind::output_error) {
     try {
@@ -259,7 +256,8 @@ PredictedSelection select_unasked(const SelectionTask& task, const Problem& prob
     if (!named.empty() && !is_over(task.options.deadline)) {
       if (auto noisy = beside(named, 0.7, 0.8)) return *std::move(noisy);
     }
-    if (balanced || is_doubtful(made.selection) || made.simulated_error() > kUseless) {
+    if (balanced || is_doubtful(made.selection) ||
+        made.simulated_error() > options.policy.useless) {
       return select_beyond_simulation(made, std::move(balanced), task, progress);
     }
     made.reason =

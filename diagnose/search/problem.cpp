@@ -66,6 +66,7 @@ Problem::Problem(const Experiment& experiment, Observations observations,
                  const ProblemOptions& options)
     : experiment_(&experiment),
       observations_(std::move(observations)),
+      policy_(options.policy),
       predictor_(predictor_for(experiment, observations_, options)) {
   for (const auto& run : experiment.runs) {
     estimation_runs_.push_back(run.run.purpose == measured::Purpose::estimation);

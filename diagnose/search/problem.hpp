@@ -4,6 +4,7 @@
 #include "diagnose/predictors/predictor.hpp"
 #include "diagnose/search/candidate.hpp"
 #include "diagnose/search/misfit.hpp"
+#include "diagnose/search/policy.hpp"
 
 #include <Eigen/Core>
 
@@ -18,6 +19,7 @@ struct ProblemOptions {
   std::optional<int> flexible_modes = {};  ///< of simulated runs; as many as needed unless given
   /// Of `time` runs: stochastic grey box with it, output error without.
   std::optional<NoiseModel> noise = {};
+  Policy policy = {};
   /// Ends its evaluations (Predictor); those that choose the modes end half-way to it.
   arm::Deadline deadline = {};
 };
@@ -38,6 +40,7 @@ class Problem {
   const Experiment& experiment() const { return *experiment_; }
   const Observations& observations() const { return observations_; }
   const Predictor& predictor() const { return predictor_; }
+  const Policy& policy() const { return policy_; }
   const std::vector<bool>& estimation_runs() const { return estimation_runs_; }
   const std::vector<bool>& validation_runs() const { return validation_runs_; }
   bool has_validation_runs() const;
@@ -114,6 +117,7 @@ class Problem {
   Observations observations_;
   std::vector<bool> estimation_runs_;
   std::vector<bool> validation_runs_;
+  Policy policy_;
   Predictor predictor_;
 };
 

@@ -50,7 +50,7 @@ std::vector<Explanation> indistinguishable_sets(const Selection& selection,
     for (const Explanation& set : *sets) {
       if (is_rival(set.fit.candidate, chosen) &&
           posterior.of_set(chosen) <=
-              kIndistinguishableOdds * posterior.of_set(set.fit.candidate)) {
+              selection.problem.policy().odds * posterior.of_set(set.fit.candidate)) {
         found.push_back(set);
       }
     }
@@ -75,11 +75,11 @@ Posterior posterior_of(const Selection& selection) {
 }
 
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
-                         const Posterior& posterior) {
+                         const Posterior& posterior, double most_odds) {
   std::vector<const Hypothesis*> indistinguishable;
   for (const Rival& rival : rivals) {
-    const bool is_far_better = rival.odds * kIndistinguishableOdds < 1.0;
-    if (rival.odds <= kIndistinguishableOdds && !is_far_better) {
+    const bool is_far_better = rival.odds * most_odds < 1.0;
+    if (rival.odds <= most_odds && !is_far_better) {
       indistinguishable.push_back(rival.effect);
     }
   }

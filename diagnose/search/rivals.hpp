@@ -27,21 +27,17 @@ bool is_limit(const Candidate& one, const Candidate& other);
 std::vector<Rival> rivals_of(const Hypothesis& cause, const Selection& selection,
                              const Posterior& posterior);
 
-/// The sets of the rivals of odds <= kIndistinguishableOdds.
+/// The sets of the rivals that are indistinguishable: of odds <= Policy::odds.
 std::vector<Explanation> indistinguishable_sets(const Selection& selection,
                                                 const Posterior& posterior);
-
-/// Rivals of odds <= this are indistinguishable from the cause.
-inline constexpr double kIndistinguishableOdds = 20.0;
 
 /// Returns the posterior of the sets that were fitted: no cause, the chosen one, singles and
 /// combinations.
 Posterior posterior_of(const Selection& selection);
 
-/// That this cause, or one of its `rivals` that is indistinguishable from it, is there. A rival
-/// that is better by more than kIndistinguishableOdds, which could not be named, says nothing for
-/// it.
+/// Returns the probability that this cause, or one of its `rivals` of odds <= `most_odds`, is
+/// there. A rival that is better by more than that, which could not be named, says nothing for it.
 double class_probability(const Hypothesis& cause, const std::vector<Rival>& rivals,
-                         const Posterior& posterior);
+                         const Posterior& posterior, double most_odds);
 
 }  // namespace flexarm::diagnose

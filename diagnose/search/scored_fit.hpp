@@ -2,6 +2,7 @@
 
 #include "diagnose/search/candidate.hpp"
 #include "diagnose/search/likelihood.hpp"
+#include "diagnose/search/minimise.hpp"
 #include "diagnose/search/reported_work.hpp"
 
 #include <Eigen/Core>
@@ -11,20 +12,10 @@
 
 namespace flexarm::diagnose {
 
-/// A candidate at the maximum of its likelihood on some runs.
-struct ScoredFit {
-  Candidate candidate = {};
-  Eigen::VectorXd lines = {};                              ///< Likelihood::lines_of
-  Eigen::MatrixXd jacobian = {};                           ///< lines by Candidate::coordinates
-  double cost = std::numeric_limits<double>::infinity();   ///< -2 ln L
+/// A candidate at the maximum of its likelihood on some runs: its cost is -2 ln L.
+struct ScoredFit : Minimum {
   double score = std::numeric_limits<double>::infinity();  ///< cost and price
-  bool converged = false;
-
-  bool is_possible() const { return cost < std::numeric_limits<double>::infinity(); }
 };
-
-/// Standard deviation of the prior of a place in the range of a parameter.
-inline constexpr double kPlaceDeviation = 0.3;
 
 /// Returns the price of an effect beside others, -2 ln p, p the probability that an arm has it
 /// before any data (effects::Entry::prior). Effects of a family are forms of one cause: that a
@@ -32,10 +23,10 @@ inline constexpr double kPlaceDeviation = 0.3;
 /// sensors are causes of their own.
 double price(const Hypothesis& effect, std::span<const Hypothesis> others);
 
-/// Returns the standard deviation of the prior of a place of an effect: kPlaceDeviation, and for a
-/// factor of a number of the arm file that by which such numbers usually are off
+/// Returns the standard deviation of the prior of a place of an effect: that of the policy, and for
+/// a factor of a number of the arm file that by which such numbers usually are off
 /// (effects::Entry::usual_deviation).
-double place_deviation(const Hypothesis& effect);
+double place_deviation(const Hypothesis& effect, const Policy& policy);
 
 /// Returns the price of the value of an effect that is such a factor,
 ///
@@ -53,21 +44,10 @@ double price_of_value(const Hypothesis& effect, std::span<const double> values);
 /// lines: the Laplace approximation of the evidence. A parameter that the data determine to a
 /// thousandth of its range costs 2 ln(0.3/0.001) = 11.4.
 double price(const Candidate& candidate, const Eigen::MatrixXd& jacobian,
-             const Eigen::VectorXd& weights);
+             const Eigen::VectorXd& weights, const Policy& policy);
 
-struct ScoredFitOptions {
-  int most_steps = 30;
-  /// Converged where a step is expected to lower -2 ln L by less than this.
-  double tolerance = 0.05;
-  /// Ends with secants in the place of derivatives, as few of which as possible are computed.
-  bool takes_secants = false;
-};
-
-/// Returns the fit nearest to `start`: iteratively reweighted least squares with the damping of
-/// [Marquardt1963] and secant updates of the derivatives [Broyden1965], places from 0 to 1. It
-/// begins with the derivatives that `base` has of the same effects. Not `is_possible` where the
-/// start cannot be computed. Throws Cancelled where the work is cancelled.
+/// Returns the fit nearest to `start` (minimise.hpp), with its score.
 ScoredFit scored_fit(const Likelihood& likelihood, const Candidate& start, const ReportedWork& work,
-                     const ScoredFitOptions& options = {}, const ScoredFit* base = nullptr);
+                     const MinimiseOptions& options = {}, const ScoredFit* base = nullptr);
 
 }  // namespace flexarm::diagnose

@@ -1,7 +1,7 @@
 #include "diagnose/search/selection.hpp"
 
 #include "diagnose/parallel.hpp"
-#include "diagnose/search/dependence_test.hpp"
+#include "diagnose/search/dependence.hpp"
 #include "diagnose/search/evidence_of_fit.hpp"
 #include "diagnose/search/nuisances.hpp"
 #include "diagnose/search/residual_test.hpp"
@@ -23,12 +23,8 @@ namespace flexarm::diagnose {
 namespace {
 
 /// A set whose score is higher by this or more has a probability below 1 %: its parameters are not
-/// reported.
+/// reported (posterior_sets.hpp).
 constexpr double kReported = 9.0;
-
-/// Evidence of an effect, as a difference of scores, that is "not worth more than a bare mention"
-/// [KassRaftery1995].
-constexpr double kBareMention = 2.0;
 
 /// Returns the fit of `best` without each of its effects.
 std::vector<ScoredFit> without_each(const Likelihood& likelihood, const ScoredFit& best,
@@ -48,13 +44,14 @@ struct SetWithoutEach {
 };
 
 /// Returns the best of `sets`, which are in order, made simpler. An effect gives place to a limit
-/// of it, in a set that was fitted, at posterior odds of kIndistinguishableOdds or less against
-/// that, and is dropped where the set without it has a score that is higher by kBareMention or
-/// less. Where the best set leaves noise so does the simpler one.
+/// of it, in a set that was fitted, at posterior odds of Policy::odds or less against that, and is
+/// dropped where the set without it has a score that is higher by Policy::bare_mention or less.
+/// Where the best set leaves noise so does the simpler one.
 SetWithoutEach simplest_of(const Likelihood& likelihood, const std::vector<ScoredFit>& sets,
                            const ReportedWork& work) {
   ScoredFit simplest = sets.front();
-  const double highest = simplest.score + 2.0 * std::log(kIndistinguishableOdds);
+  const Policy& policy = likelihood.problem().policy();
+  const double highest = simplest.score + 2.0 * std::log(policy.odds);
   const bool leaves_noise = likelihood.is_noise(simplest.lines);
   const auto does_as_well = [&](const ScoredFit& one, double most) {
     return one.score <= most && (!leaves_noise || likelihood.is_noise(one.lines));
@@ -65,7 +62,7 @@ SetWithoutEach simplest_of(const Likelihood& likelihood, const std::vector<Score
   }
   while (true) {
     std::vector<ScoredFit> without = without_each(likelihood, simplest, work);
-    const double most = simplest.score + kBareMention;
+    const double most = simplest.score + policy.bare_mention;
     const auto score = [&](const ScoredFit& one) {
       return does_as_well(one, most) ? one.score : std::numeric_limits<double>::infinity();
     };
@@ -84,7 +81,7 @@ void drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out
     for (const ScoredFit& one : best.without) costs.push_back(held_out.cost_of(one.candidate));
     const auto least = std::ranges::min_element(costs);
     // Fits end this far from their minima: runs that do not show an effect tell nothing against it.
-    const double margin = 2.0 * ScoredFitOptions{}.tolerance;
+    const double margin = 2.0 * MinimiseOptions{}.tolerance;
     if (!(*least < held_out.cost_of(best.set.candidate) - margin)) return;
     const auto weakest = static_cast<std::size_t>(least - costs.begin());
     best.set = scored_fit(likelihood, best.without[weakest].candidate, work);
@@ -94,9 +91,9 @@ void drop_by_validation(const Likelihood& likelihood, const Likelihood& held_out
 
 /// Returns a fit as the report wants it; with the derivatives of the residuals, or without.
 Explanation explained(const Problem& problem, const ScoredFit& made, bool has_derivatives) {
-  Explanation explanation = explain(
-      problem,
-      fit(problem, made.candidate, {.most_steps = 0, .is_differenced_at_end = has_derivatives}));
+  Explanation explanation =
+      explain(problem, has_derivatives ? fit(problem, made.candidate, {.most_steps = 0})
+                                       : evaluated(problem, made.candidate));
   explanation.score = made.score;
   explanation.fit.converged = made.converged;
   return explanation;
@@ -106,10 +103,10 @@ Explanation explained(const Problem& problem, const ScoredFit& made, bool has_de
 /// show a higher level, at which a search ended too early, it is made again.
 FoundSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
                  const SelectionOptions& options, ReportedWork& work) {
-  SetSearchOptions how_far{.starts = options.starts};
-  if (options.most_causes) how_far.most_effects = static_cast<std::size_t>(*options.most_causes);
+  SearchBounds bounds{.starts = options.starts};
+  if (options.most_causes) bounds.most_effects = static_cast<std::size_t>(*options.most_causes);
   const Likelihood likelihood(problem, problem.estimation_runs());
-  FoundSets sets = search_sets(likelihood, hypotheses, how_far, work);
+  FoundSets sets = search_sets(likelihood, hypotheses, bounds, work);
   const ScoredFit& best = sets.best.front();
   if (!sets.is_complete || !best.is_possible() || !likelihood.is_noise(best.lines)) return sets;
   Problem lowered = problem;
@@ -118,7 +115,7 @@ FoundSets search(Problem& problem, const std::vector<Hypothesis>& hypotheses,
   const auto lines = in_lower_noise.lines_of(best.candidate);
   if (!lines || in_lower_noise.is_noise(*lines)) return sets;
   problem = lowered;
-  return search_sets(in_lower_noise, hypotheses, how_far, work);
+  return search_sets(in_lower_noise, hypotheses, bounds, work);
 }
 
 /// Returns the set without its effects on timing, which a jitter of the torque looks like.
@@ -254,7 +251,7 @@ void select(const std::vector<Hypothesis>& hypotheses, const SelectionOptions& o
     if (sets.is_complete) search_with_timing(made, sets, hypotheses, options, work);
   });
   if (sets.best.empty()) {
-    sets.best.push_back({.candidate = made.problem.as_filed()});
+    sets.best.push_back({{.candidate = made.problem.as_filed()}});
     sets.is_complete = false;
   }
   SetWithoutEach found{sets.best.front(), {}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "diagnose/search/candidate.hpp"
+#include "diagnose/search/policy.hpp"
 #include "diagnose/search/reported_work.hpp"
 
 #include <array>
@@ -52,12 +53,13 @@ constexpr std::string_view to_string(PredictorKind kind) {
   return "";
 }
 
-/// How effects are selected; how far the search for a set of them goes is in set_search.hpp.
+/// How effects are selected.
 struct SelectionOptions {
   /// Causes named <= this; any number unless given.
   std::optional<int> most_causes = {};
   /// Chosen by evidence (predictor_choice.hpp) unless given.
   std::optional<PredictorKind> predictor = {};
+  Policy policy = {};
   /// Sets that the search begins with, beside the arm as filed.
   std::vector<Candidate> starts = {};
   /// A filter is tried where what output error leaves is a disturbance of the hub torque >= this

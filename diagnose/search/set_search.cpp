@@ -5,6 +5,7 @@
 #include "diagnose/search/part_of_data.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -22,8 +23,8 @@ namespace {
 using Labels = std::set<std::string>;
 
 /// A fit that shows which of several starts are worth going on with, and one that goes on.
-constexpr ScoredFitOptions kFirstLook = {.most_steps = 3, .tolerance = 0.5, .takes_secants = true};
-constexpr ScoredFitOptions kLook = {.most_steps = 25, .tolerance = 0.5, .takes_secants = true};
+constexpr MinimiseOptions kFirstLook = {.most_steps = 3, .tolerance = 0.5, .takes_secants = true};
+constexpr MinimiseOptions kLook = {.most_steps = 25, .tolerance = 0.5, .takes_secants = true};
 
 /// The moves of a set that are fitted: `predicted` are those that are predicted to lower the score
 /// most. `broad` ones also add every effect of several parameters, whether or not that is predicted
@@ -31,11 +32,9 @@ constexpr ScoredFitOptions kLook = {.most_steps = 25, .tolerance = 0.5, .takes_s
 /// them first, and where no predicted move lowers the score, unless the set leaves noise.
 enum class Looks { predicted, broad };
 
-/// Starts of one set that a fit goes on from after the first look.
-constexpr std::size_t kStartsOfOne = 3;
-
-/// Rivals of each effect of the final set that are fitted beside those of its family.
-constexpr std::size_t kRivalsOfOne = 3;
+/// A set that was fitted is fitted again from another start that is predicted to be lower by this:
+/// fits end so far from their minima.
+constexpr double kWorth = 2.0 * kLook.tolerance;
 
 /// How far a climb goes: below all data to a set that leaves noise, since more data are to come.
 /// Exchanges do not make a set larger.
@@ -68,13 +67,13 @@ class Rung {
  public:
   /// A climb begins without the effects of the labels in `hopeless`.
   Rung(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-       const SetSearchOptions& options, const ReportedWork& work, Climb end,
-       const Labels& hopeless = {})
+       std::size_t most_effects, const ReportedWork& work, Climb end, const Labels& hopeless = {})
       : likelihood_(likelihood),
-        least_time_s_(options.least_time *
+        policy_(likelihood.problem().policy()),
+        least_time_s_(policy_.least_time *
                       scales_of(likelihood.problem().experiment()).shortest_time_s),
         hypotheses_(hypotheses),
-        options_(options),
+        most_effects_(most_effects),
         work_(work),
         end_(end) {
     const auto left_out = std::ranges::stable_partition(
@@ -125,16 +124,16 @@ class Rung {
     while (!leaves_noise(likelihood_, beam.front())) {
       std::vector<ScoredFit> others = rivals(beam.front());
       const auto best = std::ranges::min_element(others, {}, &ScoredFit::score);
-      if (best == others.end() || !(best->score < beam.front().score - options_.worth)) return;
+      if (best == others.end() || !(best->score < beam.front().score - kWorth)) return;
       beam = {*best};
       climb(beam, 1, Looks::predicted);
     }
   }
 
-  /// Returns fits of the most likely swaps of a fitted set whose score is `near` that of the set,
-  /// or lower; of the empty set those of the most likely effects. Tried are those that are
-  /// predicted to be near, and, since the prediction is linear, for each effect all of its family,
-  /// and the best kRivalsOfOne others.
+  /// Returns fits of the most likely swaps of a fitted set whose score is within Policy::near of
+  /// that of the set, or lower; of the empty set those of the most likely effects. Tried are those
+  /// that are predicted to be near, and, since the prediction is linear, for each effect all of its
+  /// family, and the best Policy::beam others.
   std::vector<ScoredFit> rivals(const ScoredFit& base) {
     if (!base.is_possible()) return {};
     const Candidate& set = base.candidate;
@@ -145,30 +144,30 @@ class Rung {
     std::erase_if(swaps, [&](const Move& one) {
       if (one.added == nullptr || one.dropped.has_value() == is_empty) return true;
       if (!tried.insert(one.of(set).labels()).second) return true;
-      if (one.score <= base.score + options_.near) return false;
+      if (one.score <= base.score + policy_.near) return false;
       const effects::Family family = one.added->entry->family;
       if (!is_empty && set.effects[*one.dropped].entry->family == family) return false;
-      return fitted_for[one.dropped.value_or(0)]++ >= kRivalsOfOne;
+      return fitted_for[one.dropped.value_or(0)]++ >= policy_.beam;
     });
     std::vector<ScoredFit> made(swaps.size());
     in_parallel(swaps.size(), [&](std::size_t i) {
       made[i] = scored_fit(likelihood_, start_of(swaps[i], base), work_, kLook, &base);
     });
     std::erase_if(made, [&](const ScoredFit& one) {
-      const bool is_near = is_empty || one.score <= base.score + options_.near;
+      const bool is_near = is_empty || one.score <= base.score + policy_.near;
       return !is_near || !can_be_named(one.candidate);
     });
     return made;
   }
 
   /// Returns the labels of the effects that are predicted to raise the score of a set by more than
-  /// `hope`, or cannot be computed beside it; of none where the set itself cannot.
+  /// Policy::near, or cannot be computed beside it; of none where the set itself cannot.
   Labels hopeless_beside(const ScoredFit& set) {
     if (!set.is_possible()) return {};
     Labels made;
     for (const Hypothesis& one : hypotheses_) made.insert(one.label());
     for (const Move& move : moves_from(set)) {
-      if (move.added != nullptr && move.score < set.score + options_.hope) {
+      if (move.added != nullptr && move.score < set.score + policy_.near) {
         made.erase(move.added->label());
       }
     }
@@ -230,17 +229,16 @@ class Rung {
     const Labels own_labels = base.candidate.labels();
     std::size_t looks = 0;
     std::set<Labels> new_sets;
-    const bool is_full =
-        end_ == Climb::exchanges || base.candidate.effects.size() >= options_.most_effects;
+    const bool is_full = end_ == Climb::exchanges || base.candidate.effects.size() >= most_effects_;
     std::erase_if(moves, [&](const Move& one) {
       if (is_full && one.added != nullptr && !one.dropped) return true;
       const bool is_broad = kind == Looks::broad && one.added != nullptr && !one.dropped &&
                             one.added->parameters.size() > 1;
-      if (!is_broad && (one.score >= base.score || looks >= options_.looks)) return true;
+      if (!is_broad && (one.score >= base.score || looks >= policy_.looks)) return true;
       const Labels labels = one.of(base.candidate).labels();
       const auto met = met_.find(labels);
       const bool is_met_again = one.added == nullptr || labels == own_labels;
-      if (met == met_.end() || (is_met_again && one.score < met->second - options_.worth)) {
+      if (met == met_.end() || (is_met_again && one.score < met->second - kWorth)) {
         new_sets.insert(labels);
       }
       if (!new_sets.contains(labels)) return true;
@@ -269,7 +267,7 @@ class Rung {
       fits[i] = scored_fit(likelihood_, start_of(moves[i], base), work_, kFirstLook, &base);
     });
     std::erase_if(fits, [](const ScoredFit& one) { return !one.is_possible(); });
-    keep_best(fits, options_.looks, kStartsOfOne);
+    keep_best(fits, policy_.looks, policy_.beam);
     in_parallel(fits.size(), [&](std::size_t i) {
       fits[i] = scored_fit(likelihood_, fits[i].candidate, work_, kLook, &fits[i]);
     });
@@ -289,10 +287,11 @@ class Rung {
   }
 
   const Likelihood& likelihood_;
+  const Policy& policy_;
   double least_time_s_;
   std::vector<Hypothesis> hypotheses_;  ///< those that are left out last; moves refer to them
   std::size_t searched_ = 0;            ///< how many are not left out
-  const SetSearchOptions& options_;
+  std::size_t most_effects_;
   const ReportedWork& work_;
   Climb end_;
   std::map<Labels, double> met_;                 ///< the lowest score of each set that was fitted
@@ -311,14 +310,14 @@ std::vector<Hypothesis> common_of(std::vector<Hypothesis> hypotheses) {
 /// the beam, fitted to all data. Where that set leaves noise (`exchanges`), its effects are first
 /// exchanged for others on the part, and the beam is what comes of it.
 void add_rivals(const Likelihood& likelihood, const Likelihood& part, bool exchanges,
-                const std::vector<Hypothesis>& hypotheses, const SetSearchOptions& options,
+                const std::vector<Hypothesis>& hypotheses, const SearchBounds& bounds,
                 const ReportedWork& work, std::vector<ScoredFit>& beam) {
-  Rung rung(part, hypotheses, options, work, Climb::exchanges);
+  Rung rung(part, hypotheses, bounds.most_effects, work, Climb::exchanges);
   std::vector<ScoredFit> near;
   if (exchanges) {
     near = beam;
     rung.fit(near);
-    rung.climb(near, options.beam, Looks::predicted);
+    rung.climb(near, part.problem().policy().beam, Looks::predicted);
   }
   std::vector<ScoredFit> rivals =
       rung.rivals(exchanges ? near.front() : rung.fitted(beam.front().candidate));
@@ -352,8 +351,10 @@ std::size_t longest_run(const Experiment& experiment) {
 }  // namespace
 
 FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-                      const SetSearchOptions& options, ReportedWork& work) {
+                      const SearchBounds& bounds, ReportedWork& work) {
   const Problem& problem = likelihood.problem();
+  const Policy& policy = problem.policy();
+  const std::size_t to_depth = std::min(bounds.most_effects, policy.depth);
   FoundSets made;
   std::vector<ScoredFit> beam;
   std::vector<Hypothesis> common = common_of(hypotheses);
@@ -361,9 +362,9 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
   bool has_climbed = false;
   // Returns whether one effect leaves noise: then no set imitates it with fewer numbers.
   const auto climb_afresh = [&](const Likelihood& part, const std::vector<Hypothesis>& effects,
-                                const SetSearchOptions& how_far, std::size_t width) {
+                                std::size_t most_effects, std::size_t width) {
     std::vector<ScoredFit> fresh;
-    Rung rung(part, effects, how_far, work, Climb::to_noise);
+    Rung rung(part, effects, most_effects, work, Climb::to_noise);
     rung.fit(fresh);
     rung.climb(fresh, width, Looks::broad);
     const ScoredFit& best = fresh.front();
@@ -371,16 +372,14 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     std::ranges::move(fresh, std::back_inserter(beam));
     return is_one;
   };
-  SetSearchOptions to_depth = options;
-  to_depth.most_effects = std::min(options.most_effects, options.depth);
   const auto climb = [&](const Likelihood& part, std::size_t width, Climb end, bool settles) {
-    Rung rung(part, hypotheses, options, work, end, hopeless);
+    Rung rung(part, hypotheses, bounds.most_effects, work, end, hopeless);
     rung.fit(beam);
     const bool is_noise = leaves_noise(part, beam.front());
     if (!is_noise) {
       if (has_climbed) rung.climb(beam, width, Looks::predicted);
       const bool is_one = !has_climbed && climb_afresh(part, hypotheses, to_depth, width);
-      if (!is_one) climb_afresh(part, common, options, width);
+      if (!is_one) climb_afresh(part, common, bounds.most_effects, width);
     }
     const bool is_broad = !is_noise && !has_climbed;
     rung.climb(beam, width, is_broad ? Looks::broad : Looks::predicted);
@@ -389,20 +388,23 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     if (has_climbed && end != Climb::to_the_end) hopeless = rung.hopeless_beside(beam.front());
   };
   const auto begin_with_starts = [&] {
-    for (const Candidate& start : options.starts) {
-      if (start.effects.size() <= options.most_effects) beam.push_back({.candidate = start});
+    for (const Candidate& start : bounds.starts) {
+      if (start.effects.size() <= bounds.most_effects) beam.push_back({{.candidate = start}});
     }
   };
   try {
     begin_with_starts();
-    std::size_t width = options.beam;
-    const std::size_t of_rivals = options.rungs[1];
+    std::size_t width = policy.beam;
+    const std::array rungs = {policy.first_samples, 4 * policy.first_samples,
+                              16 * policy.first_samples};
+    const std::size_t of_rivals = rungs[1];
     std::unique_ptr<const PartOfData> part_for_rivals;  // null where all data are as short
     const std::size_t longest = longest_run(problem.experiment());
-    for (const std::size_t samples : options.rungs) {
+    for (const std::size_t samples : rungs) {
       if (samples >= longest) break;
       work.tell("effects on a part of the data", 0.1);
-      auto part = std::make_unique<const PartOfData>(problem, samples, options.coarse_modes);
+      auto part = std::make_unique<const PartOfData>(problem, samples,
+                                                     static_cast<int>(policy.coarse_modes));
       climb(part->likelihood(), width, Climb::to_noise, samples == of_rivals);
       width = has_climbed ? 1 : width;
       if (samples == of_rivals) part_for_rivals = std::move(part);
@@ -419,13 +421,13 @@ FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis
     const Likelihood whole = likelihood.with(sample_size);
     const Likelihood part =
         part_for_rivals ? part_for_rivals->likelihood().with(sample_size) : whole;
-    add_rivals(whole, part, exchanges, hypotheses, options, work, beam);
+    add_rivals(whole, part, exchanges, hypotheses, bounds, work, beam);
     made.sample_size = sample_size;
   } catch (const Cancelled&) {
     if (!work.is_out_of_time()) throw;
     made.is_complete = false;
   }
-  if (beam.empty()) beam.push_back({.candidate = problem.as_filed()});
+  if (beam.empty()) beam.push_back({{.candidate = problem.as_filed()}});
   made.best = std::move(beam);
   return made;
 }

@@ -2,37 +2,17 @@
 
 #include "diagnose/search/scored_fit.hpp"
 
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 namespace flexarm::diagnose {
 
-/// How far the ranked search goes.
-struct SetSearchOptions {
-  std::size_t beam = 3;   ///< sets that are kept at a time on the first rung; on others one is
-  std::size_t looks = 6;  ///< moves of each that are fitted, the best by prediction
+/// The bounds of a search, beside the Policy of the problem.
+struct SearchBounds {
   std::size_t most_effects = std::numeric_limits<std::size_t>::max();  ///< of a set
   /// Sets that the first rung and the last begin with, beside the arm as filed.
   std::vector<Candidate> starts = {};
-  /// Effects of the sets that the climb with all effects from the arm as filed ends at.
-  std::size_t depth = 3;
-  /// An effect that is predicted to raise the score by more than this on a rung is looked at on the
-  /// next one where those that are not do not leave noise.
-  double hope = 5.0;
-  /// A delay or a lag is at least this part of half a sampling period: no clock of a recording is
-  /// known better.
-  double least_time = 0.1;
-  /// A set that was fitted is fitted again from another start that is predicted to be lower by
-  /// this.
-  double worth = 1.0;
-  /// A rival whose score on a part of the data is higher by less than this is fitted to all data.
-  double near = 10.0;
-  /// Flexible modes on the rungs below all data <= this.
-  int coarse_modes = 6;
-  /// Samples of each run on the rungs below all data.
-  std::array<std::size_t, 3> rungs = {400, 1600, 6400};
 };
 
 /// The sets of effects that a search ends with.
@@ -51,9 +31,9 @@ struct FoundSets {
 /// - a beam of sets is replaced by the neighbours (moves.hpp) that are predicted to be best and
 ///   fitted, while the best score falls;
 /// - a rung on which the beam does not leave noise is climbed from its sets, if the rung below was
-///   climbed, and from the arm as filed: the first such one with all effects, to sets of `depth`,
-///   and each with the `common` effects alone (effects::Likely), unless one effect by itself left
-///   noise; the best of these climbs goes on;
+///   climbed, and from the arm as filed: the first such one with all effects, to sets of
+///   Policy::depth, and each with the `common` effects alone (effects::Likely), unless one effect
+///   by itself left noise; the best of these climbs goes on;
 /// - sets with an effect at the end of its range are left;
 /// - a rung below all data is climbed to a set that leaves noise (Likelihood::is_noise);
 /// - the next rung begins with the effects that are not hopeless on this one, and goes on with all
@@ -64,6 +44,6 @@ struct FoundSets {
 /// After the deadline of the work: the sets by then, which may be of a part of the data. Throws
 /// Cancelled where the work is cancelled otherwise.
 FoundSets search_sets(const Likelihood& likelihood, const std::vector<Hypothesis>& hypotheses,
-                      const SetSearchOptions& options, ReportedWork& work);
+                      const SearchBounds& bounds, ReportedWork& work);
 
 }  // namespace flexarm::diagnose

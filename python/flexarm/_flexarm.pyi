@@ -987,5 +987,6 @@ def diagnose(
     time_limit_s: float | None = None,
     max_causes: int | None = None,
     predictor: str = 'auto',
+    policy: Mapping[str, float] = {},
     progress: _Progress = None,
 ) -> Diagnosis: ...

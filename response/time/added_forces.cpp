@@ -103,6 +103,12 @@ AddedForces::HubTorque AddedForces::hub_torque(const ForceInstant& now, HubMotio
   return made;
 }
 
+double AddedForces::hub_torque_N_m(const ForceInstant& now, HubMotion motion,
+                                   Eigen::VectorXd& rates) const {
+  rates.resize(arm_->law_state_count);
+  return hub_torque(now, motion, entries(rates)).torque_N_m;
+}
+
 AddedForces::HubTorque AddedForces::form(const ForceInstant& now, HubMotion motion,
                                          const Eigen::VectorXd& along_beam,
                                          Eigen::VectorXd& made) const {

@@ -101,6 +101,9 @@ class AddedForces {
   /// for these arguments. Returns the torque on the hub in it.
   HubTorque form(const ForceInstant& now, HubMotion motion, const Eigen::VectorXd& along_beam,
                  Eigen::VectorXd& made) const;
+  bool has_smooth_laws() const { return !hub_.smooth.empty(); }
+  /// Returns the torque on the hub at these arguments; `rates` is written to.
+  double hub_torque_N_m(const ForceInstant& now, HubMotion motion, Eigen::VectorXd& rates) const;
   /// Torque on the hub without dry friction.
   double smooth_torque_N_m(const Eigen::VectorXd& x, double actuator_N_m, double time_s) const;
 

@@ -109,6 +109,7 @@ bool StepSolver::solve(const StepTable& table, const ArmState& now, HubMotion mo
     if (!(estimate <= force_tolerance_)) continue;
     if (!is_within(kResolved, end_speed)) return false;
     if (turns_states_ && !are_states_resolved(now, middle, end, is_turned)) return false;
+    if (span.must_be_resolved && !are_laws_resolved(now, middle, end, motion)) return false;
     known_.tail(3 * forces) << inputs_.f0, inputs_.fm, inputs_.f1;
     end_.noalias() = table.end * known_;
     if (rate > 0.0) last_rate_ = rate;
@@ -147,8 +148,9 @@ bool StepSolver::solve_by_series(const ArmState& now, HubMotion motion, const St
         end_ = series_.at(1.0);
       }
       return !span.must_be_resolved ||
-             is_resolved(AddedForces::hub_velocity(entries(now.arguments)),
-                         AddedForces::hub_velocity(end), motion, kResolved);
+             (are_laws_resolved(now, middle, end, motion) &&
+              is_resolved(AddedForces::hub_velocity(entries(now.arguments)),
+                          AddedForces::hub_velocity(end), motion, kResolved));
     }
     improve();
     if (is_turned) take_mean_rates(now, end);
@@ -255,6 +257,33 @@ bool StepSolver::is_resolved(double begin_rad_per_s, double end_rad_per_s, HubMo
   const auto slowest =
       forces_->friction_at(std::min(std::abs(begin_rad_per_s), std::abs(end_rad_per_s)));
   return std::abs(slowest.per_speed_N_m_s) * scale <= kFlat * forces_->breakaway_N_m();
+}
+
+/// The torque of smooth laws is a parabola over the step: at its quarters, for arguments that are
+/// parabolas too.
+bool StepSolver::are_laws_resolved(const ArmState& now, std::span<const double> middle,
+                                   std::span<const double> end, HubMotion motion) {
+  constexpr double kParabolic = 0.01;  // of the largest torque
+  if (!forces_->has_smooth_laws()) return true;
+  double largest = std::max(std::abs(inputs_.u0), std::abs(inputs_.u1));
+  for (const double torque : hub_torques_) largest = std::max(largest, std::abs(torque));
+  const auto begin = entries(now.arguments);
+  law_arguments_.resize(std::ssize(end));
+  for (const double r : {0.25, 0.75}) {
+    const double of_begin = (1.0 - r) * (1.0 - 2.0 * r);
+    const double of_middle = 4.0 * r * (1.0 - r);
+    const double of_end = r * (2.0 * r - 1.0);
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      law_arguments_(static_cast<Eigen::Index>(i)) =
+          of_begin * begin[i] + of_middle * middle[i] + of_end * end[i];
+    }
+    const ForceInstant instant{entries(law_arguments_), inputs_.torque(r), inputs_.time(r)};
+    const double parabola =
+        of_begin * hub_torques_[0] + of_middle * hub_torques_[1] + of_end * hub_torques_[2];
+    const double torque = forces_->hub_torque_N_m(instant, motion, law_rates_);
+    if (!(std::abs(torque - parabola) <= kParabolic * largest)) return false;
+  }
+  return true;
 }
 
 void StepSolver::expand(const Eigen::VectorXd& x, HubMotion motion) {

@@ -84,6 +84,8 @@ class StepSolver {
   void form_known(const StepTable& table, const Eigen::VectorXd& x);
   bool is_resolved(double begin_rad_per_s, double end_rad_per_s, HubMotion motion,
                    double largest_change) const;
+  bool are_laws_resolved(const ArmState& now, std::span<const double> middle,
+                         std::span<const double> end, HubMotion motion);
   bool try_turn(const ArmState& now, std::span<double> middle, std::span<double> end) const;
   bool are_states_resolved(const ArmState& now, std::span<const double> middle,
                            std::span<const double> end, bool is_turned) const;
@@ -106,7 +108,9 @@ class StepSolver {
   Eigen::VectorXd known_;             // what StepTable::end maps
   Eigen::VectorXd arguments_;         // of forces: at the middle; at the end
   Eigen::VectorXd middle_arguments_;  // of a step by series
-  Eigen::VectorXd known_arguments_;   // the part of them that no iteration changes
+  Eigen::VectorXd law_arguments_;     // within a step
+  Eigen::VectorXd law_rates_;
+  Eigen::VectorXd known_arguments_;  // the part of them that no iteration changes
   Point middle_point_;
   Point end_point_;
   Eigen::VectorXd middle_;

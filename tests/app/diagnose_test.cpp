@@ -110,6 +110,10 @@ TEST_F(Diagnose, WhatCannotBeUsedIsOneLineAndNothingIsWritten) {
   EXPECT_THAT(misspelt.errors,
               HasSubstr("--effects payload_mas: unknown effect (did you mean payload_mass?)"));
   EXPECT_EQ(run({"diagnose", file, "--max-causes", "0"}).status, 2);
+  const Ended number = run({"diagnose", file, "--policy", "baem=3"});
+  EXPECT_EQ(number.status, 2);
+  EXPECT_THAT(number.errors, HasSubstr("--policy baem: unknown number of the search (did you mean "
+                                       "beam?)"));
   EXPECT_EQ(run({"diagnose", file, "--force"}).status, 2);
   EXPECT_EQ(run({"diagnose", "no.toml"}).status, 2);
   // What was read is not replaced by what is written.

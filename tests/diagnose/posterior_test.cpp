@@ -73,7 +73,7 @@ TEST(ClassProbability, CountsRivalsThatFitAsWellAndNoneThatIsFarBetter) {
     const Posterior posterior({&nothing, &lag, &worse});
     const double odds = posterior.of_set(worse.fit.candidate) / posterior.of_set(lag.fit.candidate);
     const Hypothesis better{.effect = "actuator_lag"};
-    return class_probability(rival, {{&better, odds, 0.0}}, posterior);
+    return class_probability(rival, {{&better, odds, 0.0}}, posterior, Policy{}.odds);
   };
   EXPECT_GT(of_class(0.0), 0.999);
   EXPECT_LT(of_class(100.0), 0.001);

@@ -129,7 +129,7 @@ TEST_F(RankedTest, ABandCountsByItsSampleSize) {
   const double squares = 1e12 * static_cast<double>(lines_of_octave);
   const double weight = likelihood_.weights(lines)(channel.first + channel.count - 1);
   // The samples that are left out of the transform are few.
-  EXPECT_NEAR(weight * squares, Likelihood::kSampleSize, 0.1 * Likelihood::kSampleSize);
+  EXPECT_NEAR(weight * squares, Policy{}.sample_size, 0.1 * Policy{}.sample_size);
 }
 
 TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
@@ -140,7 +140,7 @@ TEST_F(RankedTest, AFitEndsWhereTheCostIsLeast) {
   for (const double step : {-0.01, 0.01}) {
     Candidate beside = fit.candidate;
     beside.put(places.array() + step);
-    EXPECT_GT(cost_of(beside), fit.cost - ScoredFitOptions{}.tolerance) << step;
+    EXPECT_GT(cost_of(beside), fit.cost - MinimiseOptions{}.tolerance) << step;
   }
 }
 
@@ -151,7 +151,7 @@ TEST_F(RankedTest, AFitThatBeginsWithOtherDerivativesEndsAtTheSame) {
   const ScoredFit begun = scored_fit(likelihood_, start, work_, {}, &base);
   EXPECT_TRUE(begun.converged);
   // The tolerance of either fit, and the price of derivatives by differences.
-  EXPECT_NEAR(begun.score, exact.score, 2.0 * ScoredFitOptions{}.tolerance + 0.01);
+  EXPECT_NEAR(begun.score, exact.score, 2.0 * MinimiseOptions{}.tolerance + 0.01);
 }
 
 TEST_F(RankedTest, TheBestMoveAddsWhatIsHidden) {
@@ -220,11 +220,11 @@ TEST_F(RankedTest, EvidenceIsWhatIsLostWithoutAnEffect) {
   const auto evidence = evidence_for_each(held_out, both, without, work_);
   ASSERT_EQ(evidence.size(), 2u);
   for (const EffectEvidence& one : evidence) {
-    EXPECT_GT(one.estimation, kBeyondDoubt);
-    EXPECT_GT(one.held_out.value(), kBeyondDoubt);
+    EXPECT_GT(one.estimation, Policy{}.beyond_doubt);
+    EXPECT_GT(one.held_out.value(), Policy{}.beyond_doubt);
     EXPECT_GT(one.error_increase, 2.0 * one.error_increase_std_error);
     EXPECT_GT(one.error_without, one.error_increase);
-    EXPECT_GT(one.agreement, kLeastAgreement);
+    EXPECT_GT(one.agreement, Policy{}.least_agreement);
     EXPECT_GE(one.runs.size(), 2u);
     EXPECT_EQ(grade_of(one, false, true), Grade::established);
   }
@@ -264,8 +264,8 @@ TEST(SetSearch, FindsTheFrequencyOfATorqueBesideResonances) {
   const auto hypotheses = named(experiment, {"disturbance_torque"});
   const std::vector<Candidate> starts = {
       problem.as_filed().with(hypotheses.front(), {0.005, 11.9, 3.0})};
-  for (const SetSearchOptions& options : {SetSearchOptions{}, SetSearchOptions{.starts = starts}}) {
-    const FoundSets found = search_sets(likelihood, hypotheses, options, work);
+  for (const SearchBounds& bounds : {SearchBounds{}, SearchBounds{.starts = starts}}) {
+    const FoundSets found = search_sets(likelihood, hypotheses, bounds, work);
     const Candidate& best = found.best.front().candidate;
     ASSERT_EQ(best.effects.size(), 1u);
     EXPECT_NEAR(best.values_of(0)[1], 17.3, 0.02);  // a twentieth of what 2 s resolve
@@ -282,19 +282,19 @@ TEST(SetSearch, FindsNothingWhereNothingIsHidden) {
 }
 
 TEST(Grade, NeedsHeldOutDataAndForTheHighestAllElse) {
-  EffectEvidence evidence{.held_out = 2.0 * kBeyondDoubt,
+  EffectEvidence evidence{.held_out = 2.0 * Policy{}.beyond_doubt,
                           .error_increase = 0.03,
                           .error_increase_std_error = 0.01,
                           .agreement = 0.5};
   EXPECT_EQ(grade_of(evidence, false, true), Grade::established);
   EXPECT_EQ(grade_of(evidence, true, true), Grade::supported);
   EXPECT_EQ(grade_of(evidence, false, false), Grade::supported);
-  evidence.agreement = 0.1 * kLeastAgreement;
+  evidence.agreement = 0.1 * Policy{}.least_agreement;
   EXPECT_EQ(grade_of(evidence, false, true), Grade::supported);
   evidence.error_increase_std_error = 0.02;
   EXPECT_EQ(grade_of(evidence, false, true), Grade::candidate);
   evidence.error_increase_std_error = 0.01;
-  evidence.held_out = 0.5 * kBeyondDoubt;
+  evidence.held_out = 0.5 * Policy{}.beyond_doubt;
   EXPECT_EQ(grade_of(evidence, false, true), Grade::candidate);
   evidence.held_out.reset();
   EXPECT_EQ(grade_of(evidence, false, true), Grade::candidate);

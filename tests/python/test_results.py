@@ -109,6 +109,8 @@ class OfSimulatedData(unittest.TestCase):
             (lambda: flexarm.identify(missing), ("identify", missing)),
             (lambda: flexarm.diagnose(self.file, predictor="oracle"),
              ("diagnose", str(self.file), "--predictor", "oracle")),
+            (lambda: flexarm.diagnose(self.file, policy={"beam": 2.5}),
+             ("diagnose", str(self.file), "--policy", "beam=2.5")),
             (lambda: flexarm.diagnose(self.file, effects=["fricton"]),
              ("diagnose", str(self.file), "--effects", "fricton")),
             (lambda: flexarm.diagnose(self.file, exclude=["gravity on hub_angle"]),

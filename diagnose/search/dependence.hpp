@@ -8,16 +8,9 @@
 
 namespace flexarm::diagnose {
 
-struct DependenceTest {
-  double p_value = 1.0;
-  /// Part of the squares of the errors, in standard deviations of white noise, along the change
-  /// that some hypothesis makes: the largest.
-  double largest_share = 0.0;
-};
-
-/// The test of the hypothesis that the residuals of a fitted candidate, independent with unit
-/// variance, do not depend on what the arm does. A coloured noise model makes the residuals of any
-/// candidate white: this is what tells noise from a model error.
+/// Returns the p-value of the hypothesis that the residuals of a fitted candidate, independent with
+/// unit variance, do not depend on what the arm does. A coloured noise model makes the residuals of
+/// any candidate white: this is what tells noise from a model error.
 ///
 /// Score tests [Rao1948] of every hypothesis of the library that the candidate has not, whatever is
 /// searched for: where d is what it changes of the residuals r at some value, beyond what refitting
@@ -31,10 +24,10 @@ struct DependenceTest {
 /// `kNegligibleDependence` of the signal, by motion `kNegligibleByMotion`, counts as none.
 ///
 /// The p-value is the least of all tests, of the estimation and of the validation runs, after
-/// Bonferroni. `white` is the problem without the coloured noise. After a rejection at `level` it
+/// Bonferroni. After a rejection at `level` it
 /// ends: the rest is not computed. Throws Cancelled where the work is cancelled.
-DependenceTest test_dependence(const Problem& problem, const Problem& white,
-                               const Candidate& fitted, ReportedWork& work, double level = 0.0);
+double dependence_p_value(const Problem& problem, const Candidate& fitted, ReportedWork& work,
+                          double level = 0.0);
 
 /// p-value of five standard deviations of a normal number, for noise that is not of the kind of the
 /// noise model: an amplifier that warms makes a ramp, of whose power few numbers tell.

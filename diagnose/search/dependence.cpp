@@ -1,4 +1,4 @@
-#include "diagnose/search/dependence_test.hpp"
+#include "diagnose/search/dependence.hpp"
 
 #include "diagnose/search/channel_independence.hpp"
 #include "diagnose/search/hub_torque_probes.hpp"
@@ -48,24 +48,6 @@ std::vector<std::vector<double>> probes_of(const Hypothesis& hypothesis) {
   return probes;
 }
 
-struct Score {
-  double p_value = 1.0;  ///< of one test
-  double share = 0.0;    ///< of the squares of errors in white noise
-};
-
-double squared_cosine(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
-  const double squares = one.squaredNorm() * other.squaredNorm();
-  return squares > 0.0 ? std::pow(one.dot(other), 2) / squares : 0.0;
-}
-
-/// Errors that whitened residuals are of, in the standard deviations of the noise of `white`.
-Eigen::VectorXd errors_in(const Problem& white, const Problem& problem,
-                          const Eigen::VectorXd& residuals) {
-  const auto to_white =
-      problem.observations().deviations.array() / white.observations().deviations.array();
-  return to_errors(problem.observations(), residuals).array() * to_white;
-}
-
 /// Root mean square of whitened residuals of these runs, relative to the signals.
 double relative_size(const Problem& problem, const Eigen::VectorXd& residuals,
                      const std::vector<bool>& runs) {
@@ -90,13 +72,12 @@ struct ScoredRuns {
 
   /// Of the change that a candidate makes, and of one that grows from the begin of each run to its
   /// end, as where a number drifts: `kTestsOfChange` tests.
-  Score of_change(const Problem& problem, const Problem& white, const Candidate& changed) const {
+  double p_value_of_change(const Problem& problem, const Candidate& changed) const {
     const auto with = problem.residuals(changed, runs);
-    if (!with) return {};
+    if (!with) return 1.0;
     const Eigen::VectorXd change = residuals - *with;
-    return {
-        std::min(p_value_along(problem, change), p_value_along(problem, change.cwiseProduct(time))),
-        squared_cosine(errors_in(white, problem, change), errors_in(white, problem, residuals))};
+    return std::min(p_value_along(problem, change),
+                    p_value_along(problem, change.cwiseProduct(time)));
   }
   static constexpr double kTestsOfChange = 2.0;
   /// 1 of a change that refitting makes too.
@@ -115,7 +96,7 @@ struct ScoredRuns {
   /// Of each sensor in all `time` runs on the torque up to the sample, or on the hub's acceleration
   /// where that drives the arm; the least, after Bonferroni. In the sum over all sensors a model
   /// error that shows in one would be less than the negligible dependence of all.
-  Score of_torque(const Problem& problem) const;
+  double p_value_on_torque(const Problem& problem) const;
 };
 
 /// A column for each lag, the torque before the first sample being 0.
@@ -129,7 +110,7 @@ Eigen::MatrixXd lagged(const std::vector<double>& torque_N_m) {
   return made;
 }
 
-Score ScoredRuns::of_torque(const Problem& problem) const {
+double ScoredRuns::p_value_on_torque(const Problem& problem) const {
   std::map<std::string, ChiSquaredStatistic> of_sensors;
   const auto& experiment = problem.experiment();
   std::optional<std::size_t> run;
@@ -154,7 +135,7 @@ Score ScoredRuns::of_torque(const Problem& problem) const {
   }
   double least = 1.0;
   for (const auto& [sensor, own] : of_sensors) least = std::min(least, own.p_value());
-  return {bonferroni(least, static_cast<double>(of_sensors.size())), 0.0};
+  return bonferroni(least, static_cast<double>(of_sensors.size()));
 }
 
 Eigen::VectorXd time_along(const Problem& problem, Index size) {
@@ -192,8 +173,8 @@ double negligible_dependence(const Problem& problem) {
   return is_driven_by_motion(problem.experiment()) ? kNegligibleByMotion : kNegligibleDependence;
 }
 
-DependenceTest test_dependence(const Problem& problem, const Problem& white,
-                               const Candidate& fitted, ReportedWork& work, double level) {
+double dependence_p_value(const Problem& problem, const Candidate& fitted, ReportedWork& work,
+                          double level) {
   std::vector<Candidate> changed;
   const Experiment& experiment = problem.experiment();
   for (const auto& all : {distinct(hypotheses(experiment)), hub_torque_probes(experiment)}) {
@@ -208,33 +189,32 @@ DependenceTest test_dependence(const Problem& problem, const Problem& white,
                            scored(problem, fitted, problem.validation_runs())};
   const bool is_driven = problem.is_driven_by_torque() || is_driven_by_motion(experiment);
   constexpr std::size_t kWithoutChange = 2;  // on the torque, and of channels on each other
-  std::vector<Score> scores(sets.size() * (changed.size() + kWithoutChange));
+  std::vector<double> p_values(sets.size() * (changed.size() + kWithoutChange), 1.0);
   const double tests = static_cast<double>(sets.size()) *
                        (static_cast<double>(kWithoutChange) +
                         ScoredRuns::kTestsOfChange * static_cast<double>(changed.size()));
   std::atomic<bool> is_rejected = false;
-  const auto keep = [&](std::size_t i, const Score& score) {
-    scores[i] = score;
-    if (tests * score.p_value < level) is_rejected = true;
+  const auto keep = [&](std::size_t i, double p_value) {
+    p_values[i] = p_value;
+    if (tests * p_value < level) is_rejected = true;
   };
   // First what no simulation is needed for.
   for (std::size_t i = 0; i < sets.size() && is_driven; ++i) {
     if (!sets[i]) continue;
-    keep(i, sets[i]->of_torque(problem));
+    keep(i, sets[i]->p_value_on_torque(problem));
     // A measured motion that drives all sensors has one error for all.
     if (!problem.is_driven_by_torque()) continue;
-    keep(sets.size() + i, {independence_p_value(problem, sets[i]->residuals, sets[i]->runs), 0.0});
+    keep(sets.size() + i, independence_p_value(problem, sets[i]->residuals, sets[i]->runs));
   }
   const std::size_t first = kWithoutChange * sets.size();
-  work.in_parallel(scores.size() - first, "what residuals depend on", work.done(), work.done(),
+  work.in_parallel(p_values.size() - first, "what residuals depend on", work.done(), work.done(),
                    [&](std::size_t i) {
                      work.go_on();
                      const auto& set = sets[i % sets.size()];
                      if (!set || is_rejected) return;
-                     keep(first + i, set->of_change(problem, white, changed[i / sets.size()]));
+                     keep(first + i, set->p_value_of_change(problem, changed[i / sets.size()]));
                    });
-  const double least = std::ranges::min_element(scores, {}, &Score::p_value)->p_value;
-  return {bonferroni(least, tests), std::ranges::max_element(scores, {}, &Score::share)->share};
+  return bonferroni(std::ranges::min(p_values), tests);
 }
 
 }  // namespace flexarm::diagnose

@@ -265,7 +265,9 @@ bool StepSolver::are_laws_resolved(const ArmState& now, std::span<const double> 
                                    std::span<const double> end, HubMotion motion) {
   constexpr double kParabolic = 0.01;  // of the largest torque
   if (!forces_->has_smooth_laws()) return true;
-  double largest = std::max(std::abs(inputs_.u0), std::abs(inputs_.u1));
+  // Of all steps so far: where a torque passes 0, as at a kink of a law, that of a step vanishes.
+  double& largest = largest_torque_N_m_;
+  largest = std::max({largest, std::abs(inputs_.u0), std::abs(inputs_.u1)});
   for (const double torque : hub_torques_) largest = std::max(largest, std::abs(torque));
   const auto begin = entries(now.arguments);
   law_arguments_.resize(std::ssize(end));

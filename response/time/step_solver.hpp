@@ -110,6 +110,7 @@ class StepSolver {
   Eigen::VectorXd middle_arguments_;  // of a step by series
   Eigen::VectorXd law_arguments_;     // within a step
   Eigen::VectorXd law_rates_;
+  double largest_torque_N_m_ = 0.0;  // on the hub, so far
   Eigen::VectorXd known_arguments_;  // the part of them that no iteration changes
   Point middle_point_;
   Point end_point_;

@@ -98,8 +98,8 @@ constexpr double kRoundingOfSteps = 1e-9;
 /// Where forces vary: a step a sample of 2 ms, a hundredth of a period of the rigid-body motion.
 constexpr double kOneStepASample = 1e-4;
 /// A law that changes within a step is a parabola to 1 % of the largest torque, in the few steps of
-/// a reversal: one step of ten.
-constexpr double kResolvedLaw = 1e-3;
+/// a reversal: one step of ten, and as much at each kink where the load passes 0.
+constexpr double kResolvedLaw = 2e-3;
 /// 4, less what the steps that are cut at rests of the hub take.
 constexpr double kOrder = 2.5;
 
